@@ -1,0 +1,8 @@
+//! striae fits and validates the approximations that real-time renderers use for scratched,
+//! glinting and diffractive surfaces, against measured or simulated data.
+//!
+//! The flow goes one way. Measured data and exact **references** become **tables**; a **form**,
+//! an approximation written once as a WGSL function, is **fitted** to a table or a reference; the
+//! result is **validated** (accuracy, laws, parity with the device, speed), **reported**, and held
+//! by **gates**. The modules stand in the order of that flow: each may use those above it in this
+//! list and none below (`tests/architecture.rs` enforces it).
