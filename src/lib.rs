@@ -6,3 +6,7 @@
 //! result is **validated** (accuracy, laws, parity with the device, speed), **reported**, and held
 //! by **gates**. The modules stand in the order of that flow: each may use those above it in this
 //! list and none below (`tests/architecture.rs` enforces it).
+
+pub mod numeric;
+pub mod table;
+pub mod measured;

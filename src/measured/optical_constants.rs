@@ -1,0 +1,116 @@
+//! The optical constants in `data/measured/optical_constants/`: `<Material>.<Source>.csv` with
+//! columns `wavelength`, `n` and, for what absorbs, `k`.
+
+use std::path::Path;
+
+use super::{MeasuredError, linear};
+use crate::table::{Table, TableError};
+
+/// n and k of one material as one source measured them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OpticalConstants {
+    /// Material, such as `Au`.
+    pub material: String,
+    /// Who measured, such as `Johnson`.
+    pub source: String,
+    /// The table as read.
+    pub table: Table,
+    wavelength_nm: Vec<f64>,
+    n: Vec<f64>,
+    k: Vec<f64>,
+}
+
+impl OpticalConstants {
+    /// Reads `<Material>.<Source>.csv`.
+    ///
+    /// # Errors
+    /// [`MeasuredError`] naming the file: a name of another shape, a faulty table, wavelengths
+    /// that do not increase, n ≤ 0 or k < 0.
+    pub fn read(path: &Path) -> Result<Self, MeasuredError> {
+        let implausible = |reason: String| MeasuredError::Implausible {
+            origin: path.display().to_string(),
+            reason,
+        };
+        let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
+        let Some((material, source)) = stem.split_once('.') else {
+            return Err(implausible("expected a name <Material>.<Source>.csv".into()));
+        };
+        let table = Table::read_csv(path)?;
+        let wavelength_nm = table.values_in("wavelength", "nm")?;
+        let n = table.values_in("n", "1")?;
+        let k = match table.column("k") {
+            Some(_) => table.values_in("k", "1")?,
+            None => vec![0.0; n.len()],
+        };
+        if let Some(pair) = wavelength_nm.windows(2).find(|pair| pair[0] >= pair[1]) {
+            return Err(implausible(format!("wavelengths do not increase: {pair:?} nm")));
+        }
+        if let Some(got) = n.iter().find(|n| **n <= 0.0) {
+            return Err(implausible(format!("expected n > 0, got {got}")));
+        }
+        if let Some(got) = k.iter().find(|k| **k < 0.0) {
+            return Err(implausible(format!("expected k ≥ 0, got {got}")));
+        }
+        let (material, source) = (material.to_owned(), source.to_owned());
+        Ok(Self { material, source, table, wavelength_nm, n, k })
+    }
+
+    /// `Material.Source`.
+    pub fn name(&self) -> String {
+        format!("{}.{}", self.material, self.source)
+    }
+
+    /// The measured wavelengths, nm, increasing.
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.wavelength_nm
+    }
+
+    /// First and last measured wavelength, nm.
+    pub fn range_nm(&self) -> (f64, f64) {
+        let end = |w: Option<&f64>| w.copied().unwrap_or(f64::NAN);
+        (end(self.wavelength_nm.first()), end(self.wavelength_nm.last()))
+    }
+
+    /// (n, k) at a wavelength in nm, linear between the measured wavelengths; k is 0 where the
+    /// source gives none.
+    ///
+    /// # Errors
+    /// [`MeasuredError::OutOfRange`] outside [`OpticalConstants::range_nm`].
+    pub fn at(&self, wavelength_nm: f64) -> Result<(f64, f64), MeasuredError> {
+        let value = |values| linear(&self.wavelength_nm, values, wavelength_nm);
+        match (value(&self.n), value(&self.k)) {
+            (Some(n), Some(k)) => Ok((n, k)),
+            _ => {
+                let (from_nm, to_nm) = self.range_nm();
+                Err(MeasuredError::OutOfRange {
+                    origin: self.name(),
+                    quantity: "n, k",
+                    from_nm,
+                    to_nm,
+                    got_nm: wavelength_nm,
+                })
+            }
+        }
+    }
+}
+
+/// Every `*.csv` of a folder, sorted by material and source.
+///
+/// # Errors
+/// As [`OpticalConstants::read`]; [`TableError::Empty`] for a folder without CSV files.
+pub fn load(folder: &Path) -> Result<Vec<OpticalConstants>, MeasuredError> {
+    let unreadable = |source| TableError::Unreadable { path: folder.into(), source };
+    let mut constants = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        if path.extension().is_some_and(|e| e == "csv") {
+            constants.push(OpticalConstants::read(&path)?);
+        }
+    }
+    if constants.is_empty() {
+        let origin = folder.display().to_string();
+        return Err(TableError::Empty { origin, what: "no CSV files in the folder" }.into());
+    }
+    constants.sort_by(|a, b| (&a.material, &a.source).cmp(&(&b.material, &b.source)));
+    Ok(constants)
+}

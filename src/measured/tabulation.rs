@@ -1,0 +1,85 @@
+//! The tabulated blocks of a refractiveindex.info record, and numbers in µm read as nm.
+
+use super::{MeasuredError, linear};
+
+/// A quantity at increasing wavelengths, nm.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Tabulation {
+    pub(super) wavelength_nm: Vec<f64>,
+    pub(super) values: Vec<f64>,
+}
+
+impl Tabulation {
+    pub(super) fn at(&self, wavelength_nm: f64) -> Option<f64> {
+        linear(&self.wavelength_nm, &self.values, wavelength_nm)
+    }
+}
+
+/// Reads the rows of a `tabulated …` block: `quantities` numbers after the wavelength in µm.
+/// Returns one tabulation per quantity and the number of rows merged into another: rows are sorted
+/// by wavelength, and those at one wavelength, which some records have, are averaged.
+pub(super) fn parse(
+    origin: &str,
+    first_line: u64,
+    text: &str,
+    quantities: usize,
+) -> Result<(Vec<Tabulation>, usize), MeasuredError> {
+    let mut rows: Vec<(f64, Vec<f64>)> = Vec::new();
+    for (line, row) in (first_line..).zip(text.lines()) {
+        if row.trim().is_empty() {
+            continue;
+        }
+        let fault =
+            |reason: String| MeasuredError::Malformed { origin: origin.into(), line, reason };
+        let cells: Vec<&str> = row.split_whitespace().collect();
+        let [wavelength, values @ ..] = cells.as_slice() else { continue };
+        if values.len() != quantities {
+            let (expected, got) = (quantities + 1, cells.len());
+            return Err(fault(format!("expected {expected} numbers in a row, got {got}")));
+        }
+        let wavelength_nm = micrometres_as_nm(wavelength).map_err(&fault)?;
+        let values: Result<Vec<f64>, String> = values.iter().map(|cell| number(cell)).collect();
+        rows.push((wavelength_nm, values.map_err(&fault)?));
+    }
+    if rows.is_empty() {
+        let reason = "a tabulated block without rows".into();
+        return Err(MeasuredError::Malformed { origin: origin.into(), line: first_line, reason });
+    }
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let count = rows.len();
+    let mut tabulations =
+        vec![Tabulation { wavelength_nm: Vec::new(), values: Vec::new() }; quantities];
+    for group in rows.chunk_by(|a, b| a.0 == b.0) {
+        for (i, tabulation) in tabulations.iter_mut().enumerate() {
+            let sum: f64 = group.iter().filter_map(|(_, values)| values.get(i)).sum();
+            tabulation.wavelength_nm.extend(group.first().map(|(wavelength, _)| wavelength));
+            tabulation.values.push(sum / group.len() as f64);
+        }
+    }
+    let kept = tabulations.first().map_or(0, |t| t.values.len());
+    Ok((tabulations, count - kept))
+}
+
+/// A finite number.
+pub(super) fn number(cell: &str) -> Result<f64, String> {
+    match cell.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(value) => Err(format!("expected a finite number, got {value}")),
+        Err(_) => Err(format!("expected a number, got {cell:?}")),
+    }
+}
+
+/// A positive wavelength written in µm, in nm: the decimal point moves before the text becomes
+/// binary, so that `0.1879` is 187.9 and not 187.90000000000001.
+pub(super) fn micrometres_as_nm(cell: &str) -> Result<f64, String> {
+    let (mantissa, exponent) = cell.split_once(['e', 'E']).unwrap_or((cell, "0"));
+    let shifted = exponent.parse::<i32>().ok().and_then(|e| e.checked_add(3));
+    let wavelength = match shifted {
+        Some(e) => number(&format!("{mantissa}e{e}")),
+        None => Err(String::new()),
+    };
+    match wavelength {
+        Ok(value) if value > 0.0 => Ok(value),
+        _ => Err(format!("expected a positive wavelength in µm, got {cell:?}")),
+    }
+}

@@ -1,0 +1,5 @@
+//! Numbers without physics: quadrature, distances in ulp, statistics.
+
+pub mod quadrature;
+pub mod statistics;
+pub mod ulp;

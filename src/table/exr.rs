@@ -1,0 +1,251 @@
+//! Grids as OpenEXR: f32 channels, one part, scan lines, with the axes in a sidecar.
+//!
+//! The sidecar `<file>.axes.toml` holds `[x]` and `[y]` ([`Axis`]) and one `[[channel]]` with
+//! `name` and `unit` per channel. A half-float file reads too, since every half is an f32.
+
+use std::ffi::OsString;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use ::exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
+use ::exr::meta::attribute::{LevelMode, SampleType, Text};
+use ::exr::meta::{BlockDescription, MetaData, header::Header};
+use ::exr::prelude::{LayerAttributes, ReadChannels, ReadLayers, WritableImage, read};
+use serde::{Deserialize, Serialize};
+
+use super::{Axis, Channel, Grid, TableError, store, units};
+
+/// Largest size of the pixels of a grid, in bytes: what a file declares beyond this is refused
+/// before memory is asked for.
+pub const MAX_PIXEL_BYTES: u64 = 1 << 30;
+
+/// No lossless method of EXR packs more than this many bytes into one (deflate's limit).
+const MAX_COMPRESSION: u128 = 1032;
+
+/// What stands in `<file>.axes.toml`.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Sidecar {
+    x: Axis,
+    y: Axis,
+    channel: Vec<ChannelEntry>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ChannelEntry {
+    name: String,
+    unit: String,
+}
+
+/// Where the axes of the grid in `path` stand: `<path>.axes.toml`.
+pub fn sidecar_path(path: &Path) -> PathBuf {
+    let mut name = OsString::from(path.as_os_str());
+    name.push(".axes.toml");
+    PathBuf::from(name)
+}
+
+impl Grid {
+    /// Reads an EXR file and its sidecar. The origin is the file with its SHA-256.
+    ///
+    /// # Errors
+    /// [`TableError`] naming the file, for: a file that is missing, malformed, truncated or larger
+    /// than [`MAX_PIXEL_BYTES`]; several parts, tiles with levels, subsampled or integer channels;
+    /// a sidecar that does not describe the same size and channels; values that are not finite.
+    pub fn read_exr(path: impl AsRef<Path>) -> Result<Self, TableError> {
+        let path = path.as_ref();
+        let sidecar = sidecar_path(path);
+        let sidecar_origin = sidecar.display().to_string();
+        let axes = store::read(&sidecar)?;
+        let pixels = store::read(path)?;
+        let axes = store::text(&sidecar_origin, &axes)?;
+        let mut grid =
+            Self::read_exr_bytes(&path.display().to_string(), &pixels, &sidecar_origin, axes)?;
+        grid.origin = format!("{} (sha256 {})", path.display(), store::sha256_hex(&pixels));
+        Ok(grid)
+    }
+
+    /// As [`Grid::read_exr`], from memory; the origins name the two inputs in messages.
+    ///
+    /// # Errors
+    /// As [`Grid::read_exr`].
+    pub fn read_exr_bytes(
+        origin: &str,
+        pixels: &[u8],
+        sidecar_origin: &str,
+        sidecar: &str,
+    ) -> Result<Self, TableError> {
+        let sidecar: Sidecar = toml::from_str(sidecar).map_err(|e| TableError::Malformed {
+            origin: sidecar_origin.into(),
+            reason: e.to_string().trim_end().to_owned(),
+        })?;
+        sidecar.x.check(sidecar_origin)?;
+        sidecar.y.check(sidecar_origin)?;
+        let decoded = decode(origin, pixels)?;
+        if decoded.width != sidecar.x.count || decoded.height != sidecar.y.count {
+            let (w, h) = (decoded.width, decoded.height);
+            return Err(TableError::Malformed {
+                origin: sidecar_origin.into(),
+                reason: format!(
+                    "the axes have {} × {} texels, {origin} has {w} × {h}",
+                    sidecar.x.count, sidecar.y.count
+                ),
+            });
+        }
+        let channels = match_channels(origin, sidecar_origin, decoded.channels, sidecar.channel)?;
+        let grid = Self { x: sidecar.x, y: sidecar.y, channels, origin: origin.into() };
+        grid.check()?;
+        Ok(grid)
+    }
+
+    /// Writes the sidecar and then the EXR file, each whole or not at all. The same grid always
+    /// gives the same bytes.
+    ///
+    /// # Errors
+    /// As [`Grid::check`] and [`store::atomic_write`].
+    pub fn write_exr(&self, path: impl AsRef<Path>) -> Result<(), TableError> {
+        let path = path.as_ref();
+        let (pixels, sidecar) = self.to_exr()?;
+        store::atomic_write(&sidecar_path(path), sidecar.as_bytes())?;
+        store::atomic_write(path, &pixels)
+    }
+
+    /// The EXR file and the text of its sidecar.
+    ///
+    /// # Errors
+    /// As [`Grid::check`]; [`TableError::Malformed`] if the encoder refuses a channel name.
+    pub fn to_exr(&self) -> Result<(Vec<u8>, String), TableError> {
+        self.check()?;
+        let fault = |reason: String| TableError::Malformed { origin: self.origin.clone(), reason };
+        let mut list = Vec::with_capacity(self.channels.len());
+        for channel in &self.channels {
+            let name = Text::new_or_none(&channel.name)
+                .ok_or_else(|| fault(format!("EXR cannot name a channel {:?}", channel.name)))?;
+            list.push(AnyChannel::new(name, FlatSamples::F32(channel.values.clone())));
+        }
+        let layer = Layer::new(
+            (self.x.count, self.y.count),
+            LayerAttributes::default(),
+            Encoding::SMALL_LOSSLESS,
+            AnyChannels::sort(list.into()),
+        );
+        let mut bytes = Cursor::new(Vec::new());
+        let image = Image::from_layer(layer);
+        image.write().non_parallel().to_buffered(&mut bytes).map_err(|e| fault(e.to_string()))?;
+
+        let entry = |c: &Channel| ChannelEntry { name: c.name.clone(), unit: c.unit.clone() };
+        let sidecar = Sidecar {
+            x: self.x.clone(),
+            y: self.y.clone(),
+            channel: self.channels.iter().map(entry).collect(),
+        };
+        let text = toml::to_string(&sidecar).map_err(|e| fault(e.to_string()))?;
+        Ok((bytes.into_inner(), text))
+    }
+}
+
+struct Decoded {
+    width: usize,
+    height: usize,
+    channels: Vec<(String, Vec<f32>)>,
+}
+
+/// Decodes after checking that the header asks for something that this crate reads and that the
+/// file can hold.
+fn decode(origin: &str, bytes: &[u8]) -> Result<Decoded, TableError> {
+    let fault = |reason: String| TableError::Malformed { origin: origin.into(), reason };
+    let attempt = || {
+        let meta = MetaData::read_from_buffered(Cursor::new(bytes), true)
+            .map_err(|e| fault(e.to_string()))?;
+        let [header] = meta.headers.as_slice() else {
+            return Err(fault(format!("{} parts, expected one", meta.headers.len())));
+        };
+        check_header(origin, header, bytes.len())?;
+        read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .pedantic()
+            .non_parallel()
+            .from_buffered(Cursor::new(bytes))
+            .map_err(|e| fault(e.to_string()))
+    };
+    // The decoder is not ours, and its panics on a malformed file must not become ours.
+    let image = std::panic::catch_unwind(attempt)
+        .unwrap_or_else(|_| Err(fault("the decoder gave up on it".into())))?;
+
+    let size = image.layer_data.size;
+    let channels = image.layer_data.channel_data.list.into_iter();
+    Ok(Decoded {
+        width: size.0,
+        height: size.1,
+        channels: channels
+            .map(|c| (c.name.to_string(), c.sample_data.values_as_f32().collect()))
+            .collect(),
+    })
+}
+
+fn check_header(origin: &str, header: &Header, file_bytes: usize) -> Result<(), TableError> {
+    let fault = |reason: String| TableError::Malformed { origin: origin.into(), reason };
+    if header.deep {
+        return Err(fault("deep data is not read".into()));
+    }
+    if let BlockDescription::Tiles(tiles) = header.blocks
+        && tiles.level_mode != LevelMode::Singular
+    {
+        return Err(fault("resolution levels are not read".into()));
+    }
+    let mut texel_bytes = 0u128;
+    for channel in &header.channels.list {
+        if channel.sample_type == SampleType::U32 {
+            return Err(fault(format!("channel {:?}: integers, expected f32", channel.name)));
+        }
+        if channel.sampling.0 != 1 || channel.sampling.1 != 1 {
+            return Err(fault(format!("channel {:?} is subsampled", channel.name)));
+        }
+        texel_bytes += channel.sample_type.bytes_per_sample() as u128;
+    }
+    let texels = header.layer_size.0 as u128 * header.layer_size.1 as u128;
+    let declared = texels.saturating_mul(texel_bytes);
+    let packed = file_bytes as u128 * MAX_COMPRESSION;
+    for (limit, why) in [
+        (u128::from(MAX_PIXEL_BYTES), "the largest grid that is read"),
+        (packed, "as much as a file of this size can hold"),
+    ] {
+        if declared > limit {
+            return Err(TableError::TooLarge { origin: origin.into(), declared, limit, why });
+        }
+    }
+    Ok(())
+}
+
+/// Brings the channels into the order of the sidecar, which must name exactly those that are there.
+fn match_channels(
+    origin: &str,
+    sidecar_origin: &str,
+    mut decoded: Vec<(String, Vec<f32>)>,
+    entries: Vec<ChannelEntry>,
+) -> Result<Vec<Channel>, TableError> {
+    let mut channels = Vec::with_capacity(entries.len());
+    for entry in entries {
+        units::require(&entry.unit, sidecar_origin, &entry.name)?;
+        let Some(index) = decoded.iter().position(|(name, _)| *name == entry.name) else {
+            return Err(TableError::UnknownColumn {
+                origin: format!("{origin} (named by {sidecar_origin})"),
+                name: entry.name,
+                known: decoded.iter().map(|(n, _)| n.as_str()).collect::<Vec<_>>().join(", "),
+            });
+        };
+        let (name, values) = decoded.swap_remove(index);
+        channels.push(Channel { name, unit: entry.unit, values });
+    }
+    match decoded.first() {
+        Some((name, _)) => Err(TableError::Malformed {
+            origin: sidecar_origin.into(),
+            reason: format!("no entry for channel {name:?} of {origin}"),
+        }),
+        None => Ok(channels),
+    }
+}

@@ -1,0 +1,103 @@
+//! The units that a table may use: a closed list, so that a misspelt unit is an error and not a
+//! silently different quantity.
+
+use super::TableError;
+
+/// A unit: its symbol, what it measures, and its size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// As written between the brackets of a header.
+    pub symbol: &'static str,
+    /// What it measures, in words; units of one dimension convert into each other.
+    pub dimension: &'static str,
+    /// Power of ten of its size in the dimension's coherent unit.
+    pub exponent: i32,
+    /// What the power of ten is multiplied by; 1 for a metric unit.
+    pub scale: f64,
+}
+
+const fn unit(symbol: &'static str, dimension: &'static str, exponent: i32) -> Unit {
+    Unit { symbol, dimension, exponent, scale: 1.0 }
+}
+
+/// Every known unit.
+pub const KNOWN: &[Unit] = &[
+    unit("1", "pure number", 0),
+    unit("%", "pure number", -2),
+    unit("nm", "length", -9),
+    unit("um", "length", -6),
+    unit("µm", "length", -6),
+    unit("mm", "length", -3),
+    unit("m", "length", 0),
+    unit("nm^2", "area", -18),
+    unit("um^2", "area", -12),
+    unit("mm^2", "area", -6),
+    unit("m^2", "area", 0),
+    unit("nm^-1", "wavenumber", 9),
+    unit("um^-1", "wavenumber", 6),
+    unit("mm^-1", "wavenumber", 3),
+    unit("m^-1", "wavenumber", 0),
+    unit("rad", "angle", 0),
+    Unit { symbol: "deg", dimension: "angle", exponent: 0, scale: std::f64::consts::PI / 180.0 },
+    unit("sr", "solid angle", 0),
+    unit("sr^-1", "reciprocal solid angle", 0),
+    Unit { symbol: "eV", dimension: "energy", exponent: -19, scale: 1.602_176_634 },
+    unit("J", "energy", 0),
+    unit("W", "power", 0),
+    unit("W/m^2", "irradiance", 0),
+    unit("W/(m^2 nm)", "spectral irradiance", 9),
+    unit("W/(m^2 sr)", "radiance", 0),
+    unit("W/(m^2 sr nm)", "spectral radiance", 9),
+    unit("K", "temperature", 0),
+    unit("ns", "time", -9),
+    unit("us", "time", -6),
+    unit("ms", "time", -3),
+    unit("s", "time", 0),
+    unit("px", "pixels", 0),
+    unit("ulp", "units in the last place", 0),
+];
+
+/// The unit written `symbol`, if it is known.
+pub fn find(symbol: &str) -> Option<&'static Unit> {
+    KNOWN.iter().find(|u| u.symbol == symbol)
+}
+
+/// All known symbols, separated by commas, for messages.
+pub fn known_symbols() -> String {
+    KNOWN.iter().map(|u| u.symbol).collect::<Vec<_>>().join(", ")
+}
+
+/// The unit written `symbol`.
+///
+/// # Errors
+/// [`TableError::UnknownUnit`] naming `origin`, `column` and the known units.
+pub fn require(symbol: &str, origin: &str, column: &str) -> Result<&'static Unit, TableError> {
+    find(symbol).ok_or_else(|| TableError::UnknownUnit {
+        origin: origin.into(),
+        column: column.into(),
+        unit: symbol.into(),
+        known: known_symbols(),
+    })
+}
+
+/// What a value in `from` is multiplied by to be in `to`; exactly 1 for equal units.
+///
+/// # Errors
+/// [`TableError::UnknownUnit`] for a symbol that is not known, [`TableError::UnitMismatch`] where
+/// the dimensions differ.
+pub fn conversion(from: &str, to: &str, origin: &str, column: &str) -> Result<f64, TableError> {
+    let (a, b) = (require(from, origin, column)?, require(to, origin, column)?);
+    if a.dimension != b.dimension {
+        return Err(TableError::UnitMismatch {
+            origin: origin.into(),
+            column: column.into(),
+            expected: format!("{} (such as {:?})", b.dimension, b.symbol),
+            got: from.into(),
+        });
+    }
+    // Apart from the power of ten, so that nm to m is exactly the nearest number to 1e-9.
+    let shift = a.exponent - b.exponent;
+    let power = 10f64.powi(shift.abs());
+    let scale = a.scale / b.scale;
+    Ok(if shift < 0 { scale / power } else { scale * power })
+}
