@@ -10,3 +10,4 @@
 pub mod numeric;
 pub mod table;
 pub mod measured;
+pub mod form;

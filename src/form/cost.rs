@@ -1,0 +1,58 @@
+//! What a form costs, counted in its compiled program.
+
+use serde::{Deserialize, Serialize};
+
+use super::operation::{F1, F2};
+use super::program::{Instr, Node, Program, each_instr};
+
+/// Operations of one evaluation, by class: each instruction of the compiled program counted once,
+/// both sides of branches and loop bodies too, calls inlined. What depends on parameters and
+/// constants only is not counted: a compiler folds it once the constants are baked in.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct OpCount {
+    /// Additions, multiplications, fused ones, comparisons, selections, minima, roundings and
+    /// integer operations.
+    pub arithmetic: u32,
+    /// Divisions, remainders, square roots and inverse square roots.
+    pub divide_sqrt: u32,
+    /// Exponentials, logarithms, powers, trigonometric and hyperbolic functions.
+    pub elementary: u32,
+    /// Branches: `if`, `switch` and loops.
+    pub branches: u32,
+    /// Reads of constant arrays and of variables by a run-time index.
+    pub table_reads: u32,
+}
+
+impl OpCount {
+    /// Counts a program.
+    pub(crate) fn of(program: &Program) -> Self {
+        let mut count = Self { branches: branches(&program.body), ..Self::default() };
+        each_instr(&program.body, &mut |instr| match *instr {
+            Instr::F1 { op: F1::Sqrt | F1::InverseSqrt, .. }
+            | Instr::F2 { op: F2::Div | F2::Rem, .. } => count.divide_sqrt += 1,
+            Instr::F1 { op, .. } if op.is_elementary() => count.elementary += 1,
+            Instr::F2 { op: F2::Pow | F2::Atan2, .. } => count.elementary += 1,
+            Instr::Table { .. } | Instr::Gather { .. } | Instr::Scatter { .. } => {
+                count.table_reads += 1;
+            }
+            Instr::Move { .. } | Instr::Store { .. } => {}
+            _ => count.arithmetic += 1,
+        });
+        count
+    }
+}
+
+fn branches(block: &[Node]) -> u32 {
+    block
+        .iter()
+        .map(|node| match node {
+            Node::If { accept, reject, .. } => 1 + branches(accept) + branches(reject),
+            Node::Switch { cases, .. } => {
+                1 + cases.iter().map(|case| branches(&case.body)).sum::<u32>()
+            }
+            Node::Loop { body, continuing, .. } => 1 + branches(body) + branches(continuing),
+            Node::Call(body) => branches(body),
+            Node::Run { .. } | Node::Break(_) | Node::Continue(_) | Node::Return => 0,
+        })
+        .sum()
+}

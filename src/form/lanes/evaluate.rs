@@ -1,0 +1,179 @@
+//! Evaluators: a machine kept with its form, so that repeated evaluations allocate nothing.
+
+use naga::{Handle, Literal, Override};
+
+use super::dual::Planes;
+use super::machine::{Files, Machine, Tangents, Unbounded, ValuesOnly};
+use super::{LANES, MAX_CHUNK_COST, MAX_LOOP_ITERATIONS, Real};
+use crate::form::program::Reg;
+use crate::form::{Dual, Form, FormError};
+
+/// Evaluates one form again and again, in f64 or f32, without allocating.
+#[derive(Debug, Clone)]
+pub struct Evaluator<R> {
+    form: Form,
+    machine: Machine<R, ValuesOnly>,
+}
+
+macro_rules! evaluator {
+    ($real:ty) => {
+        impl Evaluator<$real> {
+            pub(in crate::form) fn new(form: &Form) -> Self {
+                let machine = Machine::new(form.program(), ValuesOnly);
+                Self { form: form.clone(), machine }
+            }
+
+            /// Evaluates at every point; `values` is resized to one vector per output column.
+            ///
+            /// `parameters` in the order of [`Form::parameters`]; `inputs` one slice per entry of
+            /// [`Form::input_columns`], all of one length (a form without inputs has one point).
+            ///
+            /// # Errors
+            /// [`FormError::Shape`] if a count does not fit, [`FormError::Unbounded`] if a loop
+            /// does not end.
+            pub fn eval_into(
+                &mut self,
+                parameters: &[$real],
+                inputs: &[&[$real]],
+                values: &mut Vec<Vec<$real>>,
+            ) -> Result<(), FormError> {
+                each_chunk(&self.form, &mut self.machine, parameters, inputs, values, |_, _| {})
+            }
+        }
+    };
+}
+
+evaluator!(f64);
+evaluator!(f32);
+
+/// Evaluates one form again and again with derivatives by the same free parameters.
+#[derive(Debug, Clone)]
+pub struct DualEvaluator {
+    form: Form,
+    free: usize,
+    machine: Machine<f64, Planes>,
+}
+
+impl DualEvaluator {
+    pub(in crate::form) fn new(form: &Form, free: &[usize]) -> Result<Self, FormError> {
+        let parameters = form.parameters().len();
+        if let Some(index) = free.iter().find(|&&index| index >= parameters) {
+            let what = format!("free parameter {index} asked for, but it has {parameters}");
+            return Err(form.shape_error(what));
+        }
+        if let Some(index) = free.iter().enumerate().find(|(at, i)| free[..*at].contains(i)) {
+            return Err(form.shape_error(format!("free parameter {} is given twice", index.1)));
+        }
+        let machine = Machine::new(form.program(), Planes::new(form.program(), free));
+        Ok(Self { form: form.clone(), free: free.len(), machine })
+    }
+
+    /// Evaluates at every point; `dual` is resized as needed and overwritten.
+    ///
+    /// Arguments and errors as for [`Evaluator::eval_into`].
+    ///
+    /// # Errors
+    /// [`FormError::Shape`] if a count does not fit, [`FormError::Unbounded`] if a loop does not
+    /// end.
+    pub fn eval_into(
+        &mut self,
+        parameters: &[f64],
+        inputs: &[&[f64]],
+        dual: &mut Dual,
+    ) -> Result<(), FormError> {
+        let Dual { values, derivatives } = dual;
+        let outputs = &self.form.program().outputs;
+        let points = points(inputs);
+        derivatives.resize(outputs.len(), Vec::new());
+        for planes in &mut *derivatives {
+            planes.resize(self.free, Vec::new());
+            planes.iter_mut().for_each(|plane| plane.resize(points, 0.0));
+        }
+        let collect = |machine: &Machine<f64, Planes>, at: std::ops::Range<usize>| {
+            for (planes, &slot) in derivatives.iter_mut().zip(outputs) {
+                for (k, out) in planes.iter_mut().enumerate() {
+                    match machine.tangents.plane(slot, k) {
+                        Some(plane) => out[at.clone()].copy_from_slice(&plane[..at.len()]),
+                        None => out[at.clone()].fill(0.0),
+                    }
+                }
+            }
+        };
+        each_chunk(&self.form, &mut self.machine, parameters, inputs, values, collect)
+    }
+}
+
+/// Number of points that `inputs` describe.
+fn points<R>(inputs: &[&[R]]) -> usize {
+    inputs.first().map_or(1, |input| input.len())
+}
+
+/// Runs the form chunk by chunk; `collect` sees the machine after each.
+fn each_chunk<R: Real, T: Tangents<R>>(
+    form: &Form,
+    machine: &mut Machine<R, T>,
+    parameters: &[R],
+    inputs: &[&[R]],
+    values: &mut Vec<Vec<R>>,
+    mut collect: impl FnMut(&Machine<R, T>, std::ops::Range<usize>),
+) -> Result<(), FormError> {
+    let program = form.program();
+    let count = |what: &str, got: usize, expected: usize| {
+        if got == expected {
+            return Ok(());
+        }
+        Err(form.shape_error(format!("it has {expected} {what}, but {got} were given")))
+    };
+    count("parameters", parameters.len(), program.parameters.len())?;
+    count("scalar inputs", inputs.len(), program.inputs.len())?;
+    let points = points(inputs);
+    if let Some((at, input)) = inputs.iter().enumerate().find(|(_, i)| i.len() != points) {
+        let (first, other, rows) = (form.input_column(0), form.input_column(at), input.len());
+        return Err(form.shape_error(format!(
+            "column `{first}` has {points} rows, but column `{other}` has {rows}"
+        )));
+    }
+    values.resize(program.outputs.len(), Vec::new());
+    values.iter_mut().for_each(|column| column.resize(points, R::ZERO));
+    machine.prepare(program, parameters);
+    for start in (0..points).step_by(LANES) {
+        let chunk = start..points.min(start + LANES);
+        machine
+            .run(program, inputs.iter().map(|input| &input[chunk.clone()]), chunk.len())
+            .map_err(|unbounded| unbounded_error(form, unbounded))?;
+        for (column, &slot) in values.iter_mut().zip(&program.outputs) {
+            let lanes = &machine.files.floats[slot as usize];
+            column[chunk.clone()].copy_from_slice(&lanes[..chunk.len()]);
+        }
+        collect(machine, chunk);
+    }
+    Ok(())
+}
+
+/// The value of every override that the form reaches, with the given parameters, in f32.
+pub(crate) fn override_values(form: &Form, parameters: &[f32]) -> Vec<(Handle<Override>, Literal)> {
+    let mut machine = Machine::<f32, _>::new(form.program(), ValuesOnly);
+    machine.prepare(form.program(), parameters);
+    let Files { floats, integers, booleans } = &machine.files;
+    form.overrides()
+        .iter()
+        .map(|item| {
+            let literal = match (item.reg, item.signed) {
+                (Reg::F(slot), _) => Literal::F32(floats[slot as usize][0]),
+                (Reg::I(slot), true) => Literal::I32(integers[slot as usize][0] as i32),
+                (Reg::I(slot), false) => Literal::U32(integers[slot as usize][0]),
+                (Reg::B(slot), _) => Literal::Bool(booleans[slot as usize][0]),
+            };
+            (item.handle, literal)
+        })
+        .collect()
+}
+
+fn unbounded_error(form: &Form, unbounded: Unbounded) -> FormError {
+    let limit = if unbounded.by_cost {
+        format!("{MAX_CHUNK_COST} instructions")
+    } else {
+        format!("{MAX_LOOP_ITERATIONS} iterations")
+    };
+    FormError::Unbounded { origin: form.origin().to_owned(), line: unbounded.line, limit }
+}

@@ -1,0 +1,238 @@
+//! Forms: approximations written once, as WGSL functions.
+//!
+//! A [`Form`] is one named function of scalars or vectors returning a scalar or a vector. What may
+//! be fitted in it is a module-scope `override` constant. naga parses and validates the text; the
+//! same module is evaluated on the CPU over lanes of f64, f32 or dual numbers ([`Form::eval_f64`],
+//! [`Form::eval_f32`], [`Form::eval_dual`]), run on the device (`crate::gpu`) and emitted for the
+//! user's engine ([`emit`]).
+//!
+//! # What the lanes compute
+//!
+//! - Literals are f32, as WGSL says: naga has rounded them, and f64 lanes widen that value.
+//! - `min`, `max` and `clamp` give NaN if an operand is NaN (WGSL leaves it open), so that a NaN
+//!   is seen and not hidden. `pow` of a negative base is NaN, as it is on devices.
+//! - An index outside an array or a vector is taken as unsigned and at most the last element.
+//! - A bitcast in f64 lanes rounds to f32 first; its derivative is zero.
+//! - Functions that WGSL defines by a formula (`mix`, `smoothstep`, `reflect` …) follow it in its
+//!   order; `dot` adds from the first component to the last.
+
+mod compile;
+mod cost;
+pub mod emit;
+mod error;
+pub mod lanes;
+mod load;
+mod operation;
+mod program;
+
+use std::sync::Arc;
+
+pub use cost::OpCount;
+pub use error::FormError;
+pub use load::{MAX_BRACKET_NESTING, MAX_ELSE, MAX_OPERATORS, MAX_SOURCE_BYTES};
+
+use lanes::{DualEvaluator, Evaluator};
+
+/// What a user may fit in a form: an `override` constant of type f32.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Name of the `override`.
+    pub name: String,
+    /// Initial value written in the text, if there is one.
+    pub default: Option<f64>,
+}
+
+/// An argument of a form's function.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Argument {
+    /// Name in the text.
+    pub name: String,
+    /// Number of scalar components: 1 for a scalar, 2 to 4 for a vector.
+    pub components: usize,
+}
+
+/// A loaded form. Cheap to clone; can be used from many threads at once.
+#[derive(Debug, Clone)]
+pub struct Form {
+    inner: Arc<Inner>,
+}
+
+#[derive(Debug)]
+struct Inner {
+    origin: String,
+    source: String,
+    function: String,
+    module: naga::Module,
+    compiled: compile::Compiled,
+}
+
+impl Form {
+    /// Parses and validates `source`, and compiles `function` for the lanes.
+    ///
+    /// `origin` names the file in diagnostics. The parameters are the f32 `override` constants
+    /// that the function reaches, also through its callees and through other overrides; an
+    /// override whose value depends on others follows them, one of another type keeps its value.
+    ///
+    /// # Errors
+    /// [`FormError::Invalid`] if the text does not parse or validate, [`FormError::NoFunction`],
+    /// [`FormError::Unsupported`] for what forms cannot use, [`FormError::TooLarge`] beyond the
+    /// stated limits.
+    pub fn parse(origin: &str, source: &str, function: &str) -> Result<Self, FormError> {
+        let (module, compiled) = load::guarded(origin, || {
+            let (module, info) = load::module(origin, source)?;
+            let compiled = compile::compile(origin, source, &module, &info, function)?;
+            Ok((module, compiled))
+        })?;
+        let inner = Inner {
+            origin: origin.to_owned(),
+            source: source.to_owned(),
+            function: function.to_owned(),
+            module,
+            compiled,
+        };
+        Ok(Self { inner: Arc::new(inner) })
+    }
+
+    /// File the text came from, as given to [`Form::parse`].
+    pub fn origin(&self) -> &str {
+        &self.inner.origin
+    }
+    /// The text, unchanged.
+    pub fn source(&self) -> &str {
+        &self.inner.source
+    }
+    /// Name of the function.
+    pub fn function(&self) -> &str {
+        &self.inner.function
+    }
+    /// The `override` constants that the function reaches, in the order of the text.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.inner.compiled.parameters
+    }
+    /// The arguments, in order.
+    pub fn arguments(&self) -> &[Argument] {
+        &self.inner.compiled.arguments
+    }
+    /// Number of scalar components of the result, 1 to 4.
+    pub fn result_components(&self) -> usize {
+        self.inner.compiled.result_components
+    }
+    /// One column name per scalar input: `x` for a scalar, `p_x`, `p_y` … for a vector.
+    pub fn input_columns(&self) -> Vec<String> {
+        self.arguments().iter().flat_map(|a| columns(&a.name, a.components)).collect()
+    }
+    /// One column name per scalar output: `value`, or `value_x`, `value_y` …
+    pub fn output_columns(&self) -> Vec<String> {
+        columns("value", self.result_components())
+    }
+
+    /// Evaluates in f64. `parameters` in the order of [`Form::parameters`]; `inputs` one slice per
+    /// entry of [`Form::input_columns`], all of one length; returns one vector per output column.
+    ///
+    /// # Errors
+    /// [`FormError::Shape`] if a count does not fit, [`FormError::Unbounded`] if a loop does not
+    /// end within [`lanes::MAX_LOOP_ITERATIONS`] or [`lanes::MAX_CHUNK_COST`].
+    pub fn eval_f64(
+        &self,
+        parameters: &[f64],
+        inputs: &[&[f64]],
+    ) -> Result<Vec<Vec<f64>>, FormError> {
+        let mut values = Vec::new();
+        self.evaluator_f64().eval_into(parameters, inputs, &mut values)?;
+        Ok(values)
+    }
+
+    /// Evaluates in f32, correctly rounded elementary functions, in the order of the text.
+    ///
+    /// # Errors
+    /// As [`Form::eval_f64`].
+    pub fn eval_f32(
+        &self,
+        parameters: &[f32],
+        inputs: &[&[f32]],
+    ) -> Result<Vec<Vec<f32>>, FormError> {
+        let mut values = Vec::new();
+        self.evaluator_f32().eval_into(parameters, inputs, &mut values)?;
+        Ok(values)
+    }
+
+    /// Evaluates in f64 with exact derivatives by the parameters whose indices are in `free`.
+    ///
+    /// # Errors
+    /// As [`Form::eval_f64`]; [`FormError::Shape`] also if `free` names no parameter or one twice.
+    pub fn eval_dual(
+        &self,
+        parameters: &[f64],
+        free: &[usize],
+        inputs: &[&[f64]],
+    ) -> Result<Dual, FormError> {
+        let mut dual = Dual { values: Vec::new(), derivatives: Vec::new() };
+        self.evaluator_dual(free)?.eval_into(parameters, inputs, &mut dual)?;
+        Ok(dual)
+    }
+
+    /// An evaluator in f64 that allocates nothing from its second use on.
+    pub fn evaluator_f64(&self) -> Evaluator<f64> {
+        Evaluator::<f64>::new(self)
+    }
+
+    /// An evaluator in f32 that allocates nothing from its second use on.
+    pub fn evaluator_f32(&self) -> Evaluator<f32> {
+        Evaluator::<f32>::new(self)
+    }
+
+    /// An evaluator with derivatives that allocates nothing from its second use on.
+    ///
+    /// # Errors
+    /// [`FormError::Shape`] if `free` names no parameter or one twice.
+    pub fn evaluator_dual(&self, free: &[usize]) -> Result<DualEvaluator, FormError> {
+        DualEvaluator::new(self, free)
+    }
+
+    /// Static count of operations.
+    pub fn op_count(&self) -> OpCount {
+        OpCount::of(self.program())
+    }
+
+    fn module(&self) -> &naga::Module {
+        &self.inner.module
+    }
+
+    fn overrides(&self) -> &[compile::CompiledOverride] {
+        &self.inner.compiled.overrides
+    }
+
+    pub(crate) fn program(&self) -> &program::Program {
+        &self.inner.compiled.program
+    }
+
+    /// Name of scalar input `at`.
+    fn input_column(&self, at: usize) -> String {
+        self.input_columns().into_iter().nth(at).unwrap_or_default()
+    }
+
+    fn shape_error(&self, what: String) -> FormError {
+        FormError::Shape {
+            origin: self.origin().to_owned(),
+            function: self.function().to_owned(),
+            what,
+        }
+    }
+}
+
+/// `name`, or `name_x`, `name_y` … for a vector.
+fn columns(name: &str, components: usize) -> Vec<String> {
+    if components == 1 {
+        return vec![name.to_owned()];
+    }
+    ["x", "y", "z", "w"].iter().take(components).map(|c| format!("{name}_{c}")).collect()
+}
+
+/// Values with their derivatives by the free parameters.
+#[derive(Debug, Clone)]
+pub struct Dual {
+    /// `values[output][point]`.
+    pub values: Vec<Vec<f64>>,
+    /// `derivatives[output][free parameter][point]`.
+    pub derivatives: Vec<Vec<Vec<f64>>>,
+}
