@@ -11,3 +11,4 @@ pub mod numeric;
 pub mod table;
 pub mod measured;
 pub mod form;
+pub mod gpu;
