@@ -12,3 +12,4 @@ pub mod table;
 pub mod measured;
 pub mod form;
 pub mod gpu;
+pub mod effects;

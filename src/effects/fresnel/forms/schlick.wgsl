@@ -1,0 +1,7 @@
+// Schlick 1994, eq. 15: the reflectance rises from its value at normal incidence to 1 with the
+// fifth power of 1 - mu. Nothing is fitted.
+fn schlick(mu: f32, f_normal: f32) -> f32 {
+    let grazing = 1.0 - mu;
+    let square = grazing * grazing;
+    return f_normal + (1.0 - f_normal) * (square * square * grazing);
+}

@@ -1,0 +1,162 @@
+//! Properties of every Fresnel form.
+//!
+//! Monotonicity is not among them: a metal reflects less at its pseudo-Brewster angle than head-on.
+
+use crate::effects::registry::Law;
+
+type Evaluate<'a> = &'a dyn Fn(&[Vec<f32>]) -> Vec<f32>;
+
+/// Two units in the last place of 1: what rounding the last sum may cost.
+const ROUNDING: f64 = 2.4e-7;
+
+/// Reflectances at normal incidence, from glass to the ideal mirror.
+const F_NORMAL: [f32; 9] = [0.02, 0.04, 0.17, 0.33, 0.5, 0.75, 0.95, 0.99, 1.0];
+
+pub(super) const LAWS: &[Law] = &[
+    Law {
+        name: "one at grazing",
+        description: "at mu = 0 everything is reflected, whatever the material; two units in the \
+                      last place for the final sum",
+        violation: |form| worst(form, &[0.0], &F_NORMAL, |_, _, value| (value - 1.0).abs()),
+        tolerance: ROUNDING,
+        known_violations: &[],
+    },
+    Law {
+        name: "given at normal incidence",
+        description: "at mu = 1 the form returns the reflectance that it was given; two units in \
+                      the last place for the final sum",
+        violation: |form| worst(form, &[1.0], &F_NORMAL, |_, f, value| (value - f).abs()),
+        tolerance: ROUNDING,
+        known_violations: &[
+            ("fresnel/spherical_gaussian", "2^(a - b) of the way to 1 is left: 1.7e-4 as printed"),
+            ("fresnel/spherical_gaussian_weight", "2^(a - b) is left: 1.7e-4 as printed"),
+            ("fresnel/gulbrandsen", "r is clamped to 0.99: 0.01 is lost at 1"),
+            ("fresnel/gulbrandsen_exact", "r is clamped to 0.99: 0.01 is lost at 1"),
+        ],
+    },
+    Law {
+        name: "between 0 and 1",
+        description: "no light is made or taken back, for reflectances of metals at normal \
+                      incidence (0.5 to 1); two units in the last place for the final sum. \
+                      Constants fitted to one material meet the reflectances of others here",
+        violation: |form| {
+            let mu: Vec<f32> = (0..=512).map(|i| i as f32 / 512.0).collect();
+            worst(form, &mu, &F_NORMAL[4..], |_, _, value| (-value).max(value - 1.0))
+        },
+        tolerance: ROUNDING,
+        known_violations: &[
+            ("fresnel/lazanyi", "the error term does not shrink with 1 - F0: a < 0 adds to 1"),
+            ("fresnel/f_tint", "the error term does not shrink with 1 - F0: tint > 1 adds to 1"),
+            ("fresnel/spherical_gaussian", "a weight that rises first, as fitted to gold in R"),
+            ("fresnel/rational", "a > b, as fitted to gold in R, whose F0 is above 1"),
+            ("fresnel/rational_tied", "a > b, as fitted to gold in R, whose F0 is above 1"),
+        ],
+    },
+    Law {
+        name: "flat at normal incidence",
+        description: "the first-order changes of the two polarisations cancel at mu = 1: a slope \
+                      there tints surfaces that face the viewer. Slope over the last 1/64, of \
+                      which the curvature of fitted constants makes up to 0.034",
+        violation: |form| {
+            let step = 1.0 / 64.0;
+            let head_on = answers(form, &[1.0], &F_NORMAL);
+            let beside = answers(form, &[1.0 - step], &F_NORMAL);
+            let slopes = head_on.iter().zip(&beside).map(|(a, b)| f64::from(a.2 - b.2).abs());
+            largest(slopes) / f64::from(step)
+        },
+        tolerance: 0.04,
+        known_violations: &[
+            ("fresnel/schlick_exponent", "a power near 1, as fitted to gold in R: slope 1.1"),
+            ("fresnel/spherical_gaussian", "slope 2^(a - b) (2a - b) ln 2: 0.06 for gold in R"),
+        ],
+    },
+];
+
+/// Largest of `excess(mu, f_normal, value)` over all pairs, and 0.
+fn worst(
+    form: Evaluate<'_>,
+    mu: &[f32],
+    f_normal: &[f32],
+    excess: fn(f64, f64, f64) -> f64,
+) -> f64 {
+    largest(
+        answers(form, mu, f_normal)
+            .into_iter()
+            .map(|(mu, f, value)| excess(f64::from(mu), f64::from(f), f64::from(value))),
+    )
+}
+
+/// The largest, and 0; infinite if one is not a number, which no law may pass over.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(
+        0.0,
+        |worst, value| {
+            if value.is_nan() { f64::INFINITY } else { f64::max(worst, value) }
+        },
+    )
+}
+
+/// (mu, f_normal, value) over all pairs.
+///
+/// Forms of this effect take mu and f_normal; some also the reflectance at the edge, and a weight
+/// takes mu alone, which is the same as f_normal = 0. An evaluator answers the wrong number of
+/// columns with nothing but NaN, so the three are tried in turn.
+fn answers(form: Evaluate<'_>, mu: &[f32], f_normal: &[f32]) -> Vec<(f32, f32, f32)> {
+    let pairs = |f_normal: &[f32]| -> Vec<(f32, f32)> {
+        f_normal.iter().flat_map(|f| mu.iter().map(move |mu| (*mu, *f))).collect()
+    };
+    let with_f = pairs(f_normal);
+    let column = |part: fn(&(f32, f32)) -> f32, pairs: &[(f32, f32)]| -> Vec<f32> {
+        pairs.iter().map(part).collect()
+    };
+    let cosines = column(|pair| pair.0, &with_f);
+    let normals = column(|pair| pair.1, &with_f);
+    let edges = column(|pair| pair.1 + (1.0 - pair.1) * 0.4, &with_f);
+    let alone = pairs(&[0.0]);
+
+    for (pairs, inputs) in [
+        (&with_f, vec![cosines.clone(), normals.clone()]),
+        (&with_f, vec![cosines, normals, edges]),
+        (&alone, vec![column(|pair| pair.0, &alone)]),
+    ] {
+        let values = form(&inputs);
+        if values.iter().any(|value| !value.is_nan()) {
+            return pairs.iter().zip(values).map(|((mu, f), value)| (*mu, *f, value)).collect();
+        }
+    }
+    with_f.into_iter().map(|(mu, f)| (mu, f, f32::NAN)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn schlick(inputs: &[Vec<f32>]) -> Vec<f32> {
+        match inputs {
+            [mu, f_normal] => {
+                mu.iter().zip(f_normal).map(|(mu, f)| f + (1.0 - f) * (1.0 - mu).powi(5)).collect()
+            }
+            _ => vec![f32::NAN],
+        }
+    }
+
+    #[test]
+    fn schlick_keeps_every_law() {
+        for law in LAWS {
+            let violation = (law.violation)(&schlick);
+            assert!(violation <= law.tolerance, "{}: {violation:e}", law.name);
+        }
+    }
+
+    #[test]
+    fn a_form_that_breaks_them_is_found() {
+        let tilted = |inputs: &[Vec<f32>]| match inputs {
+            [mu] => mu.iter().map(|mu| 1.1 - mu).collect(),
+            _ => vec![f32::NAN],
+        };
+        for law in LAWS {
+            assert!((law.violation)(&tilted) > law.tolerance, "{}", law.name);
+            assert!((law.violation)(&|_| vec![f32::NAN]) > law.tolerance, "{}", law.name);
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Effects: one physical thing each, with its reference, its forms, its hard cases and its laws.
+
+pub mod fresnel;
+pub mod registry;
+pub mod sine_integral;

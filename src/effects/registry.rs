@@ -1,0 +1,237 @@
+//! The one list of effects that everything iterates.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use crate::form::{Form, FormError};
+use crate::table::Table;
+
+/// A quantity a reference takes or returns.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// Name, as in the columns of `striae eval`.
+    pub name: &'static str,
+    /// Unit; `1` for a pure number, `rad`, `nm`, `um` …
+    pub unit: &'static str,
+    /// Where it is defined, in words: `any finite`, `[0, 1]` …
+    pub domain: &'static str,
+}
+
+/// Why a reference has no value at a point.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{quantity} = {got} is outside {expected}")]
+pub struct DomainError {
+    /// The argument at fault.
+    pub quantity: &'static str,
+    /// Its domain.
+    pub expected: &'static str,
+    /// The value given.
+    pub got: f64,
+}
+
+/// An exact value, in f64, from a formula independent of every form that it judges.
+#[derive(Debug, Clone, Copy)]
+pub struct Reference {
+    /// Name, as in `striae eval NAME`.
+    pub name: &'static str,
+    /// One line.
+    pub description: &'static str,
+    /// The arguments, in order.
+    pub arguments: &'static [Quantity],
+    /// Unit of the value.
+    pub unit: &'static str,
+    /// Stated accuracy, with the test that holds it.
+    pub accuracy: &'static str,
+    /// Source: paper and equation.
+    pub source: &'static str,
+    /// The value at one point; `arguments` in the order above.
+    pub evaluate: fn(&[f64]) -> Result<f64, DomainError>,
+}
+
+/// Text of a form.
+#[derive(Debug, Clone, Copy)]
+pub enum Source {
+    /// Written by hand in `forms/*.wgsl`.
+    Written(&'static str),
+    /// Made from a reference (a lookup table, say) when it is asked for.
+    Generated(fn() -> String),
+}
+
+/// An approximation, as registered by an effect.
+#[derive(Debug, Clone, Copy)]
+pub struct FormEntry {
+    /// `effect/form`, as in `striae eval NAME`.
+    pub name: &'static str,
+    /// One line.
+    pub description: &'static str,
+    /// Where it comes from: paper and equation, or `striae`.
+    pub citation: &'static str,
+    /// Path inside the repository, for diagnostics.
+    pub path: &'static str,
+    /// The WGSL text.
+    pub source: Source,
+    /// The WGSL function.
+    pub function: &'static str,
+    /// The reference that it approximates.
+    pub reference: &'static str,
+}
+
+/// A named region in which forms are judged: for every argument of the reference, its values.
+#[derive(Debug, Clone, Copy)]
+pub struct Region {
+    /// Short name, as in tables: `[-10, 10]`, `far`, `scene` …
+    pub name: &'static str,
+    /// In words: what it covers and why it is judged.
+    pub description: &'static str,
+    /// The points, as a table with one column per argument of the reference; never fitted points.
+    pub points: fn() -> Table,
+}
+
+/// Evaluates a form in f32: columns of inputs to values, all NaN if the columns are not the form's.
+pub type FormValues<'a> = &'a dyn Fn(&[Vec<f32>]) -> Vec<f32>;
+
+/// A property that a form must have whatever its error: oddness, range, monotonicity, end points.
+#[derive(Debug, Clone, Copy)]
+pub struct Law {
+    /// Short name.
+    pub name: &'static str,
+    /// What is required, with the tolerance and why.
+    pub description: &'static str,
+    /// Worst violation over hard points, 0 when the law holds exactly, for an evaluator of the form
+    /// (columns of inputs to values, f32).
+    pub violation: for<'a> fn(FormValues<'a>) -> f64,
+    /// Largest violation accepted.
+    pub tolerance: f64,
+    /// Names of the forms known not to satisfy it, each with the reason; shown, not hidden.
+    pub known_violations: &'static [(&'static str, &'static str)],
+}
+
+/// What a claim of a paper is checked with: fitted constants by fit name and parameter name.
+#[derive(Debug, Clone, Default)]
+pub struct FittedConstants(pub BTreeMap<String, BTreeMap<String, f64>>);
+
+/// A claim as printed, beside what is found.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Finding {
+    /// Where it is printed: paper, equation or figure.
+    pub place: String,
+    /// As printed.
+    pub printed: String,
+    /// What is found, with numbers of this run.
+    pub found: String,
+    /// `holds`, `does not hold`, `differs` …
+    pub verdict: String,
+    /// The command that shows it.
+    pub command: String,
+}
+
+/// One table of a [`Family`]: what a form is fitted to under one set of conditions.
+#[derive(Debug, Clone)]
+pub struct Member {
+    /// `group.source@band`, unique in the family, as in `Au.Johnson@550nm` or `Au.Johnson@R`.
+    pub label: String,
+    /// What is described (a material).
+    pub group: String,
+    /// Who measured it.
+    pub source: String,
+    /// Under which condition (a wavelength, a colour channel).
+    pub band: String,
+    /// One column per argument of the form, and `value`: what the form should return.
+    pub table: Table,
+}
+
+/// Tables of one kind made from measured data, to all of which a form is fitted one by one.
+#[derive(Debug, Clone, Copy)]
+pub struct Family {
+    /// Name, as in a spec's `family = "…"`.
+    pub name: &'static str,
+    /// One line.
+    pub description: &'static str,
+    /// Makes the members from the data folder (`data/measured`), in a fixed order. `held_out`
+    /// asks for other points than the ones that are fitted (denser, hard cases among them).
+    pub members: fn(data: &std::path::Path, held_out: bool) -> Result<Vec<Member>, FamilyError>,
+}
+
+/// Why a family could not be made.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct FamilyError(pub String);
+
+/// One physical thing.
+#[derive(Debug, Clone, Copy)]
+pub struct Effect {
+    /// Module name.
+    pub name: &'static str,
+    /// Title of its page.
+    pub title: &'static str,
+    /// A paragraph: what it is and where renderers use it.
+    pub description: &'static str,
+    /// Exact quantities.
+    pub references: &'static [Reference],
+    /// Approximations.
+    pub forms: &'static [FormEntry],
+    /// Families of tables made from measured data.
+    pub families: &'static [Family],
+    /// Where they are judged.
+    pub regions: &'static [Region],
+    /// Points that have broken implementations: a table with one column per reference argument.
+    pub hard_cases: fn() -> Table,
+    /// Properties of every form.
+    pub laws: &'static [Law],
+    /// The fit that ratios of cost refer to: the form that renderers ship today.
+    pub baseline: &'static str,
+    /// Claims of papers, checked.
+    pub findings: fn(&FittedConstants) -> Vec<Finding>,
+}
+
+impl Source {
+    /// The WGSL text.
+    pub fn text(&self) -> Cow<'static, str> {
+        match self {
+            Self::Written(text) => Cow::Borrowed(text),
+            Self::Generated(make) => Cow::Owned(make()),
+        }
+    }
+}
+
+impl FormEntry {
+    /// Parses and compiles the form.
+    ///
+    /// # Errors
+    /// [`FormError`] if the text is not a form.
+    pub fn load(&self) -> Result<Form, FormError> {
+        Form::parse(self.path, &self.source.text(), self.function)
+    }
+}
+
+/// The effect called `name`.
+pub fn effect(name: &str) -> Option<&'static Effect> {
+    EFFECTS.iter().copied().find(|effect| effect.name == name)
+}
+
+/// The form called `effect/form`, with its effect.
+pub fn form(name: &str) -> Option<(&'static Effect, &'static FormEntry)> {
+    EFFECTS
+        .iter()
+        .flat_map(|effect| effect.forms.iter().map(move |form| (*effect, form)))
+        .find(|(_, form)| form.name == name)
+}
+
+/// The reference called `name`, with its effect.
+pub fn reference(name: &str) -> Option<(&'static Effect, &'static Reference)> {
+    EFFECTS
+        .iter()
+        .flat_map(|effect| effect.references.iter().map(move |reference| (*effect, reference)))
+        .find(|(_, reference)| reference.name == name)
+}
+
+/// The family called `name`, with its effect.
+pub fn family(name: &str) -> Option<(&'static Effect, &'static Family)> {
+    EFFECTS
+        .iter()
+        .flat_map(|effect| effect.families.iter().map(move |family| (*effect, family)))
+        .find(|(_, family)| family.name == name)
+}
+
+/// Every effect. To add one: its folder, and a line here.
+pub const EFFECTS: &[&Effect] = &[&super::sine_integral::EFFECT, &super::fresnel::EFFECT];
