@@ -13,3 +13,4 @@ pub mod measured;
 pub mod form;
 pub mod gpu;
 pub mod effects;
+pub mod fit;

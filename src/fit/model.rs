@@ -1,0 +1,123 @@
+//! What is fitted: values and exact derivatives at every point as functions of the free constants.
+
+use std::cell::RefCell;
+
+use crate::form::lanes::{DualEvaluator, Evaluator};
+use crate::form::{Dual, Form, FormError};
+
+/// Values with their derivatives by the free constants.
+#[derive(Debug, Clone)]
+pub struct Linearisation {
+    /// One value per point.
+    pub values: Vec<f64>,
+    /// `derivatives[free constant][point]`.
+    pub derivatives: Vec<Vec<f64>>,
+}
+
+/// A function of free constants, at fixed points.
+pub trait Model {
+    /// The values at every point.
+    ///
+    /// # Errors
+    /// [`FormError`] if the form cannot be evaluated, because a loop does not end, say.
+    fn values(&self, free: &[f64]) -> Result<Vec<f64>, FormError>;
+
+    /// The values and their exact derivatives.
+    ///
+    /// # Errors
+    /// As [`Model::values`].
+    fn linearise(&self, free: &[f64]) -> Result<Linearisation, FormError>;
+}
+
+/// Where the value of one `override` comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Origin {
+    /// The free constant of this index.
+    Free(usize),
+    /// A fixed value.
+    Fixed(f64),
+}
+
+/// A [`Form`] at the points of a table, one of its output columns.
+pub struct FormModel<'a> {
+    inputs: Vec<&'a [f64]>,
+    output: usize,
+    origins: &'a [Origin],
+    owners: Vec<usize>,
+    free: usize,
+    evaluator: RefCell<Evaluator<f64>>,
+    dual: RefCell<(DualEvaluator, Dual)>,
+}
+
+impl<'a> FormModel<'a> {
+    /// `origins` in the order of [`Form::parameters`]; `inputs` one column per input column;
+    /// `output` the index of the output column. Several `override`s may share a free constant:
+    /// they are tied.
+    ///
+    /// # Errors
+    /// [`FormError::Shape`] if there are more origins than parameters.
+    pub fn new(
+        form: &Form,
+        inputs: &'a [Vec<f64>],
+        output: usize,
+        origins: &'a [Origin],
+    ) -> Result<Self, FormError> {
+        let (varying, owners): (Vec<_>, Vec<_>) = origins
+            .iter()
+            .enumerate()
+            .filter_map(|(index, origin)| match origin {
+                Origin::Free(owner) => Some((index, *owner)),
+                Origin::Fixed(_) => None,
+            })
+            .unzip();
+        let empty = Dual { values: Vec::new(), derivatives: Vec::new() };
+        Ok(Self {
+            inputs: inputs.iter().map(Vec::as_slice).collect(),
+            output,
+            origins,
+            free: owners.iter().max().map_or(0, |last| last + 1),
+            owners,
+            evaluator: RefCell::new(form.evaluator_f64()),
+            dual: RefCell::new((form.evaluator_dual(&varying)?, empty)),
+        })
+    }
+
+    /// The value of every `override`, in the order of [`Form::parameters`].
+    fn overrides(&self, free: &[f64]) -> Vec<f64> {
+        self.origins
+            .iter()
+            .map(|origin| match origin {
+                Origin::Free(owner) => free.get(*owner).copied().unwrap_or(f64::NAN),
+                Origin::Fixed(value) => *value,
+            })
+            .collect()
+    }
+}
+
+impl Model for FormModel<'_> {
+    fn values(&self, free: &[f64]) -> Result<Vec<f64>, FormError> {
+        let mut columns = Vec::new();
+        let overrides = self.overrides(free);
+        self.evaluator.borrow_mut().eval_into(&overrides, &self.inputs, &mut columns)?;
+        Ok(columns.into_iter().nth(self.output).unwrap_or_default())
+    }
+
+    fn linearise(&self, free: &[f64]) -> Result<Linearisation, FormError> {
+        let mut kept = self.dual.borrow_mut();
+        let (evaluator, dual) = &mut *kept;
+        evaluator.eval_into(&self.overrides(free), &self.inputs, dual)?;
+        let values = dual.values.get(self.output).cloned().unwrap_or_default();
+        let mut derivatives: Vec<Vec<f64>> = vec![Vec::new(); self.free];
+        let by_override = dual.derivatives.get(self.output).into_iter().flatten();
+        for (column, owner) in by_override.zip(&self.owners) {
+            if let Some(sum) = derivatives.get_mut(*owner) {
+                if sum.is_empty() {
+                    sum.clone_from(column);
+                } else {
+                    sum.iter_mut().zip(column).for_each(|(s, c)| *s += c);
+                }
+            }
+        }
+        Ok(Linearisation { values, derivatives })
+    }
+}

@@ -1,0 +1,57 @@
+//! argmin's L-BFGS with Moré–Thuente's line search, in variables in which the problem is round.
+
+use argmin::core::{Executor, IterState, State};
+use argmin::solver::linesearch::MoreThuenteLineSearch;
+use argmin::solver::quasinewton::LBFGS;
+use nalgebra::DVector;
+
+use super::attempt::{Attempt, Ending};
+use super::scaled::{Scaled, give_up};
+use crate::fit::problem::Problem;
+use crate::form::FormError;
+
+type Iteration = IterState<DVector<f64>, DVector<f64>, (), (), (), f64>;
+
+/// Pairs of steps and gradients that are kept.
+const MEMORY: usize = 10;
+/// Restarts, each in variables scaled at the best point so far.
+const ROUNDS: usize = 8;
+
+/// Runs L-BFGS from `start`.
+pub(super) fn solve(
+    problem: &Problem,
+    start: &DVector<f64>,
+    max_iterations: u64,
+) -> Result<Attempt, FormError> {
+    let mut iterations = 0;
+    let mut at = start.clone();
+    let mut attempt = None;
+    for _ in 0..ROUNDS {
+        let scaled = Scaled::orthonormal(problem, at.clone())?;
+        let Some(before) = problem.best().map(|best| best.cost) else { break };
+        let origin = DVector::zeros(scaled.variables());
+        let solver = LBFGS::new(MoreThuenteLineSearch::new(), MEMORY)
+            .with_tolerance_grad(0.0)
+            .and_then(|solver| solver.with_tolerance_cost(1e-16 * before));
+        let Some(solver) = give_up(solver)? else { break };
+        let run = Executor::new(scaled, solver)
+            .configure(|state: Iteration| {
+                state.param(origin).max_iters(max_iterations - iterations)
+            })
+            .ctrlc(false)
+            .run();
+        iterations += give_up(run)?.map_or(1, |result| result.state().get_iter());
+        iterations = iterations.min(max_iterations);
+        let judged = Attempt::judged(problem, start, iterations, iterations >= max_iterations)?;
+        at.copy_from(&judged.variables);
+        let go_on = judged.ending == Ending::Stalled && judged.cost < before;
+        attempt = Some(judged);
+        if !go_on {
+            break;
+        }
+    }
+    match attempt {
+        Some(attempt) => Ok(attempt),
+        None => Attempt::judged(problem, start, iterations, false),
+    }
+}

@@ -1,0 +1,126 @@
+//! What the optimum is worth: standard errors, correlation, condition, equioscillation.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Smallest singular value of the column-scaled Jacobian, relative to the largest, under which some
+/// combination of constants has no effect that f64 can see.
+const SINGULAR: f64 = 1e-13;
+
+/// Iterations after which the singular values of a small triangle are given up.
+const SVD_ITERATIONS: usize = 1000;
+
+/// Covariance of the constants up to the variance of the residuals.
+#[derive(Debug, Clone)]
+pub struct Spread {
+    /// Condition number of the column-scaled Jacobian; absent if it is singular.
+    pub condition: Option<f64>,
+    /// √ of the diagonal of (JᵀJ)⁻¹; absent if J is singular.
+    pub unit_errors: Option<Vec<f64>>,
+    /// Correlation of the constants; absent if J is singular.
+    pub correlation: Option<Vec<Vec<f64>>>,
+}
+
+/// The spread from the Jacobian by the constants, by the singular values of the Jacobian with its
+/// columns scaled to length 1: JᵀJ is never formed.
+pub fn spread(jacobian: &DMatrix<f64>) -> Spread {
+    spread_of(jacobian).unwrap_or(Spread { condition: None, unit_errors: None, correlation: None })
+}
+
+fn spread_of(jacobian: &DMatrix<f64>) -> Option<Spread> {
+    let n = jacobian.ncols();
+    if n == 0 || jacobian.nrows() < n {
+        return None;
+    }
+    let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
+    if !lengths.iter().all(|length| length.is_finite() && *length > 0.0) {
+        return None;
+    }
+    let mut unit = jacobian.clone();
+    for (mut column, length) in unit.column_iter_mut().zip(&lengths) {
+        column /= *length;
+    }
+    let svd = unit.qr().r().try_svd(false, true, f64::EPSILON, SVD_ITERATIONS)?;
+    let (largest, smallest) = (svd.singular_values.max(), svd.singular_values.min());
+    if smallest <= SINGULAR * largest {
+        return None;
+    }
+    let mut rows = svd.v_t?;
+    for (mut row, s) in rows.row_iter_mut().zip(svd.singular_values.iter()) {
+        row /= *s;
+    }
+    let covariance = rows.tr_mul(&rows);
+    let roots: Vec<f64> = covariance.diagonal().iter().map(|v| v.sqrt()).collect();
+    let correlation = (0..n)
+        .map(|i| {
+            let entry = |j: usize| {
+                if i == j {
+                    1.0
+                } else {
+                    (covariance[(i, j)] / (roots[i] * roots[j])).clamp(-1.0, 1.0)
+                }
+            };
+            (0..n).map(entry).collect()
+        })
+        .collect();
+    let unit_errors = roots.iter().zip(&lengths).map(|(root, length)| root / length).collect();
+    Some(Spread {
+        condition: Some(largest / smallest),
+        unit_errors: Some(unit_errors),
+        correlation: Some(correlation),
+    })
+}
+
+/// Residual standard deviation √(Σ r² / (m − n)), residuals with their factors: the scale of the
+/// noise is taken from the fit, and weights are relative, as NIST certifies. Absent without degrees
+/// of freedom.
+pub fn residual_deviation(residuals: &DVector<f64>, free: usize) -> Option<f64> {
+    let freedom = residuals.len().checked_sub(free).filter(|freedom| *freedom > 0)?;
+    Some(residuals.norm() / (freedom as f64).sqrt())
+}
+
+/// How close to the largest an error must be to count as reaching it.
+const REACHED: f64 = 1e-4;
+
+/// How many times `errors`, along increasing `x`, reach their largest magnitude with alternating
+/// sign.
+pub fn equioscillations(x: &[f64], errors: &[f64]) -> usize {
+    let worst = errors.iter().fold(0.0, |worst: f64, e| worst.max(e.abs()));
+    let mut order: Vec<usize> = (0..x.len().min(errors.len())).collect();
+    order.sort_by(|i, j| x[*i].total_cmp(&x[*j]));
+    let mut count = 0;
+    let mut last = 0.0;
+    for error in order.iter().map(|i| errors[*i]) {
+        if error.abs() >= (1.0 - REACHED) * worst && error.signum() != last {
+            count += 1;
+            last = error.signum();
+        }
+    }
+    if worst > 0.0 { count } else { 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_straight_line_has_the_textbook_errors() {
+        let x = [1.0, 2.0, 3.0, 4.0];
+        let jacobian = DMatrix::from_fn(4, 2, |i, j| if j == 0 { 1.0 } else { x[i] });
+        let spread = spread(&jacobian);
+        let errors = spread.unit_errors.unwrap();
+        assert!((errors[1] - (1.0f64 / 5.0).sqrt()).abs() < 1e-14);
+        assert!((errors[0] - (30.0f64 / 20.0).sqrt()).abs() < 1e-14);
+        let correlation = spread.correlation.unwrap()[0][1];
+        assert!((correlation + 10.0 / (4.0f64 * 30.0).sqrt()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn equal_columns_are_singular() {
+        assert!(spread(&DMatrix::from_element(4, 2, 1.5)).condition.is_none());
+    }
+
+    #[test]
+    fn alternations_are_counted_in_the_order_of_x() {
+        assert_eq!(equioscillations(&[0.0, 2.0, 1.0, 3.0], &[1.0, 1.0, -1.0, 0.2]), 3);
+    }
+}

@@ -1,0 +1,219 @@
+//! The points and values that a form is fitted to.
+
+use std::path::Path;
+
+use super::error::FitError;
+use super::loss::Loss;
+use super::sampling::{MOST_POINTS, tensor_product};
+use super::spec::{Domain, Spec, Weighting};
+use crate::effects::registry::Reference;
+use crate::table::Table;
+
+/// Whether the target carries noise that the residuals can be held against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Noise {
+    /// A measured table: the residuals estimate its noise.
+    Measured,
+    /// An exact target: residuals are the model's error, not noise.
+    Exact,
+}
+
+/// Points with the values wanted there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Points {
+    /// Path or name of what they are from.
+    pub label: String,
+    /// Names of the inputs, those of the form in its order.
+    pub names: Vec<String>,
+    /// One column per input.
+    pub columns: Vec<Vec<f64>>,
+    /// The values wanted.
+    pub target: Vec<f64>,
+    /// Weights of the squared residuals.
+    pub weights: Option<Vec<f64>>,
+    /// What the residuals mean.
+    pub noise: Noise,
+}
+
+impl Points {
+    /// `reference` over `domain`, at points rounded to f32: a form is called with f32, and its error
+    /// is measured against the reference at that number.
+    ///
+    /// # Errors
+    /// [`FitError::Spec`] at `key` if the domain misses an argument or has an unknown one;
+    /// [`FitError::Domain`] where the reference has no value.
+    pub fn of_reference(
+        spec: &Spec,
+        reference: &Reference,
+        inputs: &[String],
+        domain: &Domain,
+        key: &str,
+    ) -> Result<Self, FitError> {
+        let arguments: Vec<&str> = reference.arguments.iter().map(|q| q.name).collect();
+        let known = |name: &str| arguments.contains(&name) || inputs.iter().any(|i| i == name);
+        if let Some(stray) = domain.keys().find(|name| !known(name)) {
+            let what = format!(
+                "neither {} nor the form has this argument; expected {}",
+                reference.name,
+                arguments.join(", ")
+            );
+            return Err(spec.fault(&format!("{key}.{stray}"), what));
+        }
+        let mut names: Vec<String> = arguments.iter().map(|a| (*a).to_owned()).collect();
+        names.extend(inputs.iter().filter(|i| !arguments.contains(&i.as_str())).cloned());
+        let mut axes = Vec::with_capacity(names.len());
+        for name in &names {
+            let axis =
+                domain.get(name).ok_or_else(|| spec.fault(key, format!("`{name}` is missing")))?;
+            axes.push(axis.points().iter().map(|x| f64::from(*x as f32)).collect());
+        }
+        let product = axes.iter().try_fold(1, |rows: usize, axis: &Vec<f64>| {
+            rows.checked_mul(axis.len()).filter(|rows| *rows <= MOST_POINTS)
+        });
+        if product.is_none() {
+            return Err(
+                spec.fault(key, format!("the arguments make more than {MOST_POINTS} points"))
+            );
+        }
+        let columns = tensor_product(&axes);
+        let rows = columns.first().map_or(0, Vec::len);
+        let mut target = Vec::with_capacity(rows);
+        let mut point = vec![0.0; arguments.len()];
+        for row in 0..rows {
+            for (coordinate, column) in point.iter_mut().zip(&columns) {
+                *coordinate = column[row];
+            }
+            let value = (reference.evaluate)(&point).map_err(|source| FitError::Domain {
+                reference: reference.name.to_owned(),
+                source,
+            })?;
+            target.push(value);
+        }
+        let column_of = |input: &String| {
+            let index = names.iter().position(|name| name == input);
+            index.and_then(|index| columns.get(index)).cloned().unwrap_or_default()
+        };
+        let points = Self {
+            label: reference.name.to_owned(),
+            columns: inputs.iter().map(column_of).collect(),
+            names: inputs.to_vec(),
+            target,
+            weights: None,
+            noise: Noise::Exact,
+        };
+        points.check(spec.loss)?;
+        Ok(points)
+    }
+
+    /// The rows of a table: the form's `inputs` and `column` are among its columns.
+    ///
+    /// # Errors
+    /// [`FitError::Data`] for a column that is not there, [`FitError::Table`] for numbers that are
+    /// not finite and weights that make no sense, by row.
+    pub fn of_table(
+        label: &str,
+        table: &Table,
+        inputs: &[String],
+        column: &str,
+        weight: &Weighting,
+        loss: Loss,
+        noise: Noise,
+    ) -> Result<Self, FitError> {
+        let named = |name: &str| -> Result<Vec<f64>, FitError> {
+            let column = table.column(name).ok_or_else(|| FitError::Table {
+                table: label.to_owned(),
+                what: format!("there is no column `{name}`; it has {}", table.names().join(", ")),
+            })?;
+            Ok(column.values.clone())
+        };
+        let weights = match weight {
+            Weighting::Equal => None,
+            Weighting::Column(name) => Some((name.clone(), named(name)?)),
+            Weighting::Uncertainty => {
+                table.column(column).and_then(|c| c.uncertainty.as_ref()).map(|u| {
+                    (format!("u({column}), as weight"), u.iter().map(|u| 1.0 / (u * u)).collect())
+                })
+            }
+        };
+        let points = Self {
+            label: label.to_owned(),
+            columns: inputs.iter().map(|input| named(input)).collect::<Result<_, _>>()?,
+            names: inputs.to_vec(),
+            target: named(column)?,
+            weights: weights.as_ref().map(|(_, values)| values.clone()),
+            noise,
+        };
+        if let Some((name, values)) = &weights {
+            if let Some(row) = values.iter().position(|w| !(w.is_finite() && *w >= 0.0)) {
+                let what = format!("expected a finite weight ≥ 0, got {}", values[row]);
+                return Err(points.fault(row, name, &what));
+            }
+            if values.iter().all(|w| *w == 0.0) {
+                return Err(FitError::Table {
+                    table: label.to_owned(),
+                    what: format!("column `{name}`: every weight is 0"),
+                });
+            }
+        }
+        points.check(loss)?;
+        Ok(points)
+    }
+
+    /// Numbers that cannot be fitted to.
+    fn check(&self, loss: Loss) -> Result<(), FitError> {
+        for (name, column) in self.names.iter().zip(&self.columns) {
+            if let Some(row) = column.iter().position(|x| !x.is_finite()) {
+                let what = format!("expected a finite number, got {}", column[row]);
+                return Err(self.fault(row, name, &what));
+            }
+        }
+        if let Some(row) = self.target.iter().position(|x| !x.is_finite()) {
+            let what = format!("expected a finite number, got {}", self.target[row]);
+            return Err(self.fault(row, "target", &what));
+        }
+        if loss == Loss::Relative
+            && let Some(row) = self.target.iter().position(|x| *x == 0.0)
+        {
+            return Err(self.fault(row, "target", "the relative loss has no value where it is 0"));
+        }
+        Ok(())
+    }
+
+    fn fault(&self, row: usize, column: &str, what: &str) -> FitError {
+        FitError::Table {
+            table: self.label.clone(),
+            what: format!("row {}, column `{column}`: {what}", row + 1),
+        }
+    }
+
+    /// Checks that there are at least as many rows as free parameters.
+    ///
+    /// # Errors
+    /// [`FitError::Table`] with both numbers.
+    pub fn require_rows(&self, free: usize) -> Result<(), FitError> {
+        let rows = self.target.len();
+        if rows >= free.max(1) {
+            return Ok(());
+        }
+        Err(FitError::Table {
+            table: self.label.clone(),
+            what: format!("{free} free parameters need at least as many rows, got {rows}"),
+        })
+    }
+
+    /// SHA-256 over the numbers and the text of the form.
+    pub fn fingerprint(&self, form: &str) -> String {
+        let columns = self.columns.iter().chain([&self.target]).chain(&self.weights);
+        let mut bytes: Vec<u8> = columns.flatten().flat_map(|x| x.to_le_bytes()).collect();
+        bytes.extend_from_slice(form.as_bytes());
+        crate::table::store::sha256_hex(&bytes)
+    }
+}
+
+/// A table read from a CSV file, relative to `root` unless absolute.
+///
+/// # Errors
+/// [`FitError::Data`] naming file, line and column.
+pub fn read_table(root: &Path, path: &Path) -> Result<Table, FitError> {
+    Ok(Table::read_csv(root.join(path))?)
+}

@@ -1,0 +1,7 @@
+// NIST StRD: y = b1 b2 x / (1 + b2 x). Parameters are named as NIST names them.
+override b1: f32;
+override b2: f32;
+
+fn model(x: f32) -> f32 {
+    return b1 * b2 * x / (1.0 + b2 * x);
+}
