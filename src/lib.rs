@@ -14,3 +14,4 @@ pub mod form;
 pub mod gpu;
 pub mod effects;
 pub mod fit;
+pub mod validate;

@@ -1,0 +1,210 @@
+//! Cost of forms and references: ratios taken in one run, on the CPU lanes and on the device.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+use crate::effects::registry::Reference;
+use crate::form::OpCount;
+use crate::gpu::{self, AdapterDescription, Device, Measurement, TimedForm, TimingOptions};
+use crate::numeric::statistics::percentile;
+use crate::validate::ValidateError;
+use crate::validate::accuracy::{Shipped, Target};
+use crate::validate::measured::Measured;
+
+/// Cost of one form.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    /// The fit.
+    pub name: String,
+    /// Operations in the text.
+    pub operations: OpCount,
+    /// Nanoseconds per evaluation on f64 lanes, one core.
+    pub lanes_f64_ns: f64,
+    /// Nanoseconds per evaluation on f32 lanes, one core.
+    pub lanes_f32_ns: f64,
+    /// Cost on the device, net of an empty kernel.
+    pub device: Measured<Measurement>,
+}
+
+impl Cost {
+    /// What the form costs where it is used: on the device if that was measured, else on f32 lanes.
+    pub fn nanoseconds(&self) -> f64 {
+        self.device.value().map_or(self.lanes_f32_ns, |timing| timing.net_ns.median)
+    }
+}
+
+/// Cost of a reference.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ReferenceCost {
+    /// Name.
+    pub name: String,
+    /// Nanoseconds per evaluation, one core.
+    pub ns: f64,
+}
+
+/// Costs of one effect.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Costs {
+    /// Effect.
+    pub effect: String,
+    /// The device, or why there is none.
+    pub adapter: Measured<AdapterDescription>,
+    /// The fit that ratios refer to: the published form.
+    pub baseline: String,
+    /// Forms, in the order given.
+    pub forms: Vec<Cost>,
+    /// References.
+    pub references: Vec<ReferenceCost>,
+}
+
+/// A form with constants, and the points over which it is timed.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// The form.
+    pub shipped: Shipped,
+    /// Where it is evaluated.
+    pub target: Target,
+}
+
+/// A reference and the points over which it is timed.
+#[derive(Debug, Clone)]
+pub struct TimedReference {
+    /// The reference.
+    pub reference: &'static Reference,
+    /// One column per argument.
+    pub inputs: Vec<Vec<f64>>,
+}
+
+/// Rounds of interleaved timing; the median over rounds is reported.
+const ROUNDS: usize = 9;
+/// Points per timed pass on the CPU.
+const POINTS: usize = 1 << 14;
+
+/// Times every candidate and reference. The first candidate is the baseline of the ratios.
+///
+/// Points are shuffled, so that a branch on the argument diverges as it would on a screen.
+///
+/// # Errors
+/// If a form cannot be evaluated or the device fails.
+pub fn costs(
+    effect: &str,
+    candidates: &[Candidate],
+    references: &[TimedReference],
+    device: &Measured<Device>,
+) -> Result<Costs, ValidateError> {
+    let inputs: Vec<Vec<Vec<f64>>> =
+        candidates.iter().map(|candidate| shuffled(&candidate.target.inputs)).collect();
+    let narrow: Vec<Vec<Vec<f32>>> = inputs
+        .iter()
+        .map(|columns| columns.iter().map(|c| c.iter().map(|v| *v as f32).collect()).collect())
+        .collect();
+    let mut wide_ns = vec![Vec::with_capacity(ROUNDS); candidates.len()];
+    let mut narrow_ns = vec![Vec::with_capacity(ROUNDS); candidates.len()];
+    for _ in 0..ROUNDS {
+        for (at, candidate) in candidates.iter().enumerate() {
+            let columns: Vec<&[f64]> = inputs[at].iter().map(Vec::as_slice).collect();
+            let shipped = &candidate.shipped;
+            wide_ns[at].push(nanoseconds(|| shipped.form.eval_f64(&shipped.constants, &columns))?);
+            let columns: Vec<&[f32]> = narrow[at].iter().map(Vec::as_slice).collect();
+            narrow_ns[at]
+                .push(nanoseconds(|| shipped.form.eval_f32(&shipped.constants_f32, &columns))?);
+        }
+    }
+    let timings = device_timings(candidates, &narrow, device)?;
+    let forms = candidates
+        .iter()
+        .enumerate()
+        .map(|(at, candidate)| Cost {
+            name: candidate.shipped.name.clone(),
+            operations: candidate.shipped.form.op_count(),
+            lanes_f64_ns: percentile(&wide_ns[at], 50.0),
+            lanes_f32_ns: percentile(&narrow_ns[at], 50.0),
+            device: timings[at].clone(),
+        })
+        .collect();
+    Ok(Costs {
+        effect: effect.to_owned(),
+        adapter: device.map(|device| device.description().clone()),
+        baseline: candidates.first().map(|c| c.shipped.name.clone()).unwrap_or_default(),
+        forms,
+        references: references
+            .iter()
+            .map(|timed| reference_cost(timed.reference, &shuffled(&timed.inputs)))
+            .collect(),
+    })
+}
+
+/// Nanoseconds per point of one pass over [`POINTS`] points.
+fn nanoseconds<T, E: Into<ValidateError>>(
+    pass: impl FnOnce() -> Result<T, E>,
+) -> Result<f64, ValidateError> {
+    let start = Instant::now();
+    black_box(pass().map_err(Into::into)?);
+    Ok(start.elapsed().as_secs_f64() * 1e9 / POINTS as f64)
+}
+
+/// [`POINTS`] rows drawn in a seeded random order, repeating the rows as often as needed.
+fn shuffled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let rows = columns.first().map_or(0, Vec::len);
+    if rows == 0 {
+        return columns.iter().map(|_| Vec::new()).collect();
+    }
+    let mut order: Vec<usize> = (0..rows).collect();
+    order.shuffle(&mut ChaCha8Rng::seed_from_u64(1));
+    let order: Vec<usize> = order.into_iter().cycle().take(POINTS).collect();
+    columns.iter().map(|column| order.iter().map(|row| column[*row]).collect()).collect()
+}
+
+fn device_timings(
+    candidates: &[Candidate],
+    inputs: &[Vec<Vec<f32>>],
+    device: &Measured<Device>,
+) -> Result<Vec<Measured<Measurement>>, ValidateError> {
+    let device = match device {
+        Measured::Value(device) => device,
+        Measured::NotMeasured(reason) => {
+            return Ok(vec![Measured::NotMeasured(reason.clone()); candidates.len()]);
+        }
+    };
+    let forms: Vec<TimedForm<'_>> = candidates
+        .iter()
+        .zip(inputs)
+        .map(|(candidate, inputs)| TimedForm {
+            name: &candidate.shipped.name,
+            form: &candidate.shipped.form,
+            parameters: &candidate.shipped.constants_f32,
+            inputs,
+        })
+        .collect();
+    let baseline = candidates.first().map(|candidate| candidate.shipped.name.clone());
+    let options = TimingOptions { baseline, ..TimingOptions::default() };
+    let timings = gpu::time(device, &forms, &options)?;
+    Ok(timings
+        .into_iter()
+        .map(|timing| match timing.cost {
+            gpu::Cost::Measured(measurement) => Measured::Value(measurement),
+            gpu::Cost::NotMeasured { reason } => Measured::NotMeasured(reason),
+        })
+        .collect())
+}
+
+fn reference_cost(reference: &Reference, columns: &[Vec<f64>]) -> ReferenceCost {
+    let rows = columns.first().map_or(0, Vec::len).min(POINTS / 8);
+    let points: Vec<Vec<f64>> =
+        (0..rows).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
+    let rounds: Vec<f64> = (0..3)
+        .map(|_| {
+            let start = Instant::now();
+            for point in &points {
+                let _ = black_box((reference.evaluate)(black_box(point)));
+            }
+            start.elapsed().as_secs_f64() * 1e9 / rows.max(1) as f64
+        })
+        .collect();
+    ReferenceCost { name: reference.name.to_owned(), ns: percentile(&rounds, 50.0) }
+}

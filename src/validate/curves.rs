@@ -1,0 +1,62 @@
+//! Error along one argument, for plots.
+
+use serde::{Deserialize, Serialize};
+
+use crate::effects::registry::{Member, Reference};
+use crate::table::{Column, Table};
+use crate::validate::ValidateError;
+use crate::validate::accuracy::{Shipped, Target, values_f32};
+
+/// Error of one form along its argument.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Curve {
+    /// The fit.
+    pub name: String,
+    /// Argument and error (form in f32 minus target), in increasing order of the argument.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Error of `shipped` at `arguments` against a reference of one argument.
+///
+/// # Errors
+/// If the reference takes another number of arguments, or either has no value there.
+pub fn against_reference(
+    shipped: &Shipped,
+    reference: &Reference,
+    arguments: &[f64],
+) -> Result<Curve, ValidateError> {
+    let values = arguments.iter().map(|value| f64::from(*value as f32)).collect();
+    let name = reference.arguments.first().map_or("", |argument| argument.name);
+    let points = Table {
+        columns: vec![Column {
+            name: name.to_owned(),
+            unit: "1".into(),
+            values,
+            uncertainty: None,
+        }],
+        origin: format!("points of {}", reference.name),
+    };
+    error(shipped, &Target::of_reference(reference, &points)?)
+}
+
+/// Error of `shipped` over a family member's held-out table, along the first argument.
+///
+/// # Errors
+/// If the table lacks a column, or the form cannot be evaluated.
+pub fn over_member(shipped: &Shipped, member: &Member) -> Result<Curve, ValidateError> {
+    error(shipped, &Target::of_table(&member.table, &shipped.form)?)
+}
+
+fn error(shipped: &Shipped, target: &Target) -> Result<Curve, ValidateError> {
+    let values = values_f32(shipped, target)?;
+    let mut points: Vec<(f64, f64)> = target
+        .inputs
+        .first()
+        .into_iter()
+        .flatten()
+        .zip(values.iter().zip(&target.values))
+        .map(|(argument, (value, truth))| (*argument, f64::from(*value) - truth))
+        .collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(Curve { name: shipped.name.clone(), points })
+}

@@ -1,0 +1,64 @@
+//! Laws: what a form must satisfy whatever its error.
+
+use serde::{Deserialize, Serialize};
+
+use crate::effects::registry::{Effect, Law};
+use crate::validate::accuracy::Shipped;
+
+/// How a form stands to a law.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LawVerdict {
+    /// The law.
+    pub law: String,
+    /// The fit.
+    pub fit: String,
+    /// Worst violation found.
+    pub violation: f64,
+    /// Largest violation accepted.
+    pub tolerance: f64,
+    /// `holds`, `known violation: …` or `violated`.
+    pub verdict: LawStanding,
+}
+
+/// Verdict on a law.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LawStanding {
+    /// Within the tolerance.
+    Holds,
+    /// Beyond it, as registered, with the reason.
+    Known(String),
+    /// Beyond it, and nobody has said so.
+    Violated,
+}
+
+/// Judges every law of `effect` for `shipped`, in f32. A form that cannot be evaluated violates.
+pub fn judge(effect: &Effect, form_name: &str, shipped: &Shipped) -> Vec<LawVerdict> {
+    effect.laws.iter().map(|law| verdict(law, form_name, shipped)).collect()
+}
+
+fn verdict(law: &Law, form_name: &str, shipped: &Shipped) -> LawVerdict {
+    let evaluate = |inputs: &[Vec<f32>]| {
+        let columns: Vec<&[f32]> = inputs.iter().map(Vec::as_slice).collect();
+        shipped
+            .form
+            .eval_f32(&shipped.constants_f32, &columns)
+            .map(|mut values| values.swap_remove(0))
+            .unwrap_or_else(|_| vec![f32::NAN; inputs.first().map_or(1, Vec::len)])
+    };
+    let violation = (law.violation)(&evaluate);
+    let known =
+        law.known_violations.iter().find(|(name, _)| *name == form_name || *name == shipped.name);
+    let standing = match known {
+        _ if violation <= law.tolerance => LawStanding::Holds,
+        Some((_, reason)) => LawStanding::Known((*reason).to_owned()),
+        None => LawStanding::Violated,
+    };
+    LawVerdict {
+        law: law.name.to_owned(),
+        fit: shipped.name.clone(),
+        violation,
+        tolerance: law.tolerance,
+        verdict: standing,
+    }
+}

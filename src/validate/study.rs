@@ -1,0 +1,228 @@
+//! A study of one effect: every fit of it on every region, its laws, its parity and its cost.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::effects::registry::{self, Effect, Finding, FittedConstants, Member, Reference};
+use crate::fit::outcome::{FamilyOutcome, Outcome};
+use crate::form::Form;
+use crate::gpu::Device;
+use crate::table::Table;
+use crate::validate::ValidateError;
+use crate::validate::accuracy::{Accuracy, Shipped, Target, accuracy, residuals_f32};
+use crate::validate::family::{FormOverFamily, GroupSpread, over_family, spreads};
+use crate::validate::laws::{LawVerdict, judge};
+use crate::validate::measured::Measured;
+use crate::validate::parity::{Parity, parity};
+
+/// A fit to a reference, judged.
+#[derive(Debug, Clone, Serialize)]
+pub struct FitStudy {
+    /// The result of the fit.
+    pub outcome: Outcome,
+    /// Accuracy per region of the effect, by region name.
+    pub regions: Vec<(String, Accuracy)>,
+    /// Accuracy on the effect's hard cases, where the reference takes the same arguments.
+    pub hard_cases: Option<Accuracy>,
+    /// Device against f32 lanes over all regions together.
+    pub parity: Measured<Parity>,
+}
+
+/// The fits to one family, judged on held-out points.
+#[derive(Debug, Clone, Serialize)]
+pub struct FamilyStudy {
+    /// The family.
+    pub family: String,
+    /// One entry per fit.
+    pub forms: Vec<FormOverFamily>,
+    /// How far the sources are apart.
+    pub spreads: Vec<GroupSpread>,
+}
+
+/// Everything measured about an effect, except time.
+#[derive(Debug, Clone, Serialize)]
+pub struct Study {
+    /// Name of the effect.
+    pub effect: String,
+    /// Fits to references.
+    pub fits: Vec<FitStudy>,
+    /// Fits to families.
+    pub families: Vec<FamilyStudy>,
+    /// Every law against every fit.
+    pub laws: Vec<LawVerdict>,
+    /// Claims of papers, checked.
+    pub findings: Vec<Finding>,
+}
+
+impl Shipped {
+    /// The form of a result with its constants. `root` is the project's folder, for forms that are
+    /// files of the user's.
+    ///
+    /// # Errors
+    /// If the form is neither registered nor a readable file, or a constant of it has no value.
+    pub fn of(outcome: &Outcome, root: &Path) -> Result<Self, ValidateError> {
+        let form = match registry::form(&outcome.form) {
+            Some((_, entry)) => entry.load()?,
+            None => {
+                let path = root.join(&outcome.form);
+                let text = std::fs::read_to_string(&path).map_err(|source| {
+                    ValidateError::UnreadableForm { name: outcome.form.clone(), source }
+                })?;
+                Form::parse(&outcome.form, &text, &outcome.function)?
+            }
+        };
+        Self::with_form(outcome, form)
+    }
+
+    /// The same for a form that is loaded already.
+    ///
+    /// # Errors
+    /// If a constant of the form has no value in the result.
+    pub fn with_form(outcome: &Outcome, form: Form) -> Result<Self, ValidateError> {
+        let constants = form
+            .parameters()
+            .iter()
+            .map(|parameter| {
+                outcome.parameters.get(&parameter.name).ok_or_else(|| ValidateError::NoConstant {
+                    fit: outcome.name.clone(),
+                    constant: parameter.name.clone(),
+                })
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        Ok(Self {
+            name: outcome.name.clone(),
+            constants: constants.iter().map(|constant| constant.value).collect(),
+            constants_f32: constants.iter().map(|constant| constant.f32).collect(),
+            form,
+        })
+    }
+}
+
+/// Studies `effect` with the results of its fits.
+///
+/// `members` holds the held-out members of each family, in the order of `effect.families`; `root`
+/// is the project's folder.
+///
+/// # Errors
+/// If a form, a reference or the device fails; a missing device is not an error.
+pub fn study(
+    effect: &Effect,
+    singles: &[Outcome],
+    families: &[FamilyOutcome],
+    members: &[Vec<Member>],
+    root: &Path,
+    device: &Measured<Device>,
+) -> Result<Study, ValidateError> {
+    let mut found = Study {
+        effect: effect.name.to_owned(),
+        fits: Vec::new(),
+        families: Vec::new(),
+        laws: Vec::new(),
+        findings: (effect.findings)(&constants(singles)),
+    };
+    for outcome in singles {
+        let shipped = Shipped::of(outcome, root)?;
+        found.laws.extend(judge(effect, &outcome.form, &shipped));
+        if let Some((_, reference)) = registry::reference(&outcome.target) {
+            found.fits.push(fit_study(effect, outcome, &shipped, reference, device)?);
+        }
+    }
+    for (family, members) in effect.families.iter().zip(members) {
+        let mut forms = Vec::new();
+        for outcome in families.iter().filter(|outcome| outcome.family == family.name) {
+            if let Some((_, entry)) = registry::form(&outcome.form) {
+                let form = entry.load()?;
+                let judged = judge_family(&form, outcome, members)?;
+                if let Some(first) = outcome.members.first() {
+                    let shipped = Shipped::with_form(first, form)?;
+                    found.laws.extend(judge(effect, &outcome.form, &shipped));
+                }
+                forms.push(judged);
+            }
+        }
+        let spreads = spreads(members);
+        found.families.push(FamilyStudy { family: family.name.to_owned(), forms, spreads });
+    }
+    Ok(found)
+}
+
+fn constants(singles: &[Outcome]) -> FittedConstants {
+    let of = |outcome: &Outcome| {
+        outcome.parameters.iter().map(|(name, constant)| (name.clone(), constant.value)).collect()
+    };
+    FittedConstants(singles.iter().map(|outcome| (outcome.name.clone(), of(outcome))).collect())
+}
+
+fn fit_study(
+    effect: &Effect,
+    outcome: &Outcome,
+    shipped: &Shipped,
+    reference: &Reference,
+    device: &Measured<Device>,
+) -> Result<FitStudy, ValidateError> {
+    let mut regions = Vec::new();
+    let mut everywhere: Option<Target> = None;
+    for region in effect.regions {
+        let points = rounded((region.points)());
+        if !has_arguments(&points, reference) {
+            continue;
+        }
+        let target = Target::of_reference(reference, &points)?;
+        regions.push((region.name.to_owned(), accuracy(shipped, &target, device)?));
+        everywhere = Some(match everywhere {
+            Some(all) => all.joined(target),
+            None => target,
+        });
+    }
+    let hard = rounded((effect.hard_cases)());
+    let hard_cases = if has_arguments(&hard, reference) {
+        Some(accuracy(shipped, &Target::of_reference(reference, &hard)?, device)?)
+    } else {
+        None
+    };
+    let parity = match (device, everywhere) {
+        (Measured::Value(device), Some(target)) => {
+            Measured::Value(parity(shipped, &target, device)?)
+        }
+        (Measured::Value(_), None) => {
+            Measured::NotMeasured("the effect has no region for it".into())
+        }
+        (Measured::NotMeasured(reason), _) => Measured::NotMeasured(reason.clone()),
+    };
+    Ok(FitStudy { outcome: outcome.clone(), regions, hard_cases, parity })
+}
+
+pub(super) fn has_arguments(points: &Table, reference: &Reference) -> bool {
+    points.rows() > 0
+        && reference.arguments.iter().all(|argument| points.column(argument.name).is_some())
+}
+
+/// The table with every number rounded to f32, so that all precisions see the same points.
+pub(super) fn rounded(mut table: Table) -> Table {
+    for value in table.columns.iter_mut().flat_map(|column| &mut column.values) {
+        *value = f64::from(*value as f32);
+    }
+    table
+}
+
+fn judge_family(
+    form: &Form,
+    outcome: &FamilyOutcome,
+    members: &[Member],
+) -> Result<FormOverFamily, ValidateError> {
+    let mut outcomes = Vec::new();
+    let mut residuals = Vec::new();
+    for member in members {
+        let name = format!("{}#{}", outcome.name, member.label);
+        let fitted = outcome.members.iter().find(|fitted| fitted.name == name);
+        let fitted = fitted.ok_or_else(|| ValidateError::NoMember {
+            fit: outcome.name.clone(),
+            member: member.label.clone(),
+        })?;
+        let shipped = Shipped::with_form(fitted, form.clone())?;
+        residuals.push(residuals_f32(&shipped, &Target::of_table(&member.table, form)?)?);
+        outcomes.push(fitted);
+    }
+    Ok(over_family(&outcome.name, members, &outcomes, residuals))
+}
