@@ -15,3 +15,4 @@ pub mod gpu;
 pub mod effects;
 pub mod fit;
 pub mod validate;
+pub mod report;

@@ -1,0 +1,242 @@
+//! What a page of a report holds: sections of paragraphs, tables, figures and notices.
+//!
+//! The model is written three times, as HTML, JSON and plain text, so it says what is meant and
+//! nothing about looks. A value that was not measured is a [`Missing`](super::document_cell::Value)
+//! cell with its reason: it is never a number, a blank or a pass.
+
+use serde::{Serialize, Serializer};
+
+pub use super::document_cell::{Cell, Highlight, Value, Verdict};
+pub use super::document_inline::{Inline, Span};
+pub use super::document_table::{Align, Column, ColumnKind, Table};
+use super::plot::Plot;
+
+/// One page: `<slug>.html`. The page with the slug `index` leads, and lists the others.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Page {
+    /// File name without extension: lower-case letters, digits, `-` and `_`.
+    pub slug: String,
+    /// Heading.
+    pub title: String,
+    /// What the page is about, in a sentence or two; also shown beside its link on the index.
+    pub summary: Inline,
+    /// Its sections, in order.
+    pub sections: Vec<Section>,
+}
+
+impl Page {
+    /// A page without sections.
+    pub fn new(
+        slug: impl Into<String>,
+        title: impl Into<String>,
+        summary: impl Into<Inline>,
+    ) -> Self {
+        Self {
+            slug: slug.into(),
+            title: title.into(),
+            summary: summary.into(),
+            sections: Vec::new(),
+        }
+    }
+
+    /// The page with one more section.
+    #[must_use]
+    pub fn section(mut self, section: Section) -> Self {
+        self.sections.push(section);
+        self
+    }
+
+    /// Its figures, in order, those inside [`Block::Details`] included.
+    #[must_use]
+    pub fn figures(&self) -> Vec<&Figure> {
+        fn collect<'a>(blocks: &'a [Block], into: &mut Vec<&'a Figure>) {
+            for block in blocks {
+                match block {
+                    Block::Figure(figure) => into.push(figure),
+                    Block::Details { blocks, .. } => collect(blocks, into),
+                    _ => {}
+                }
+            }
+        }
+        let mut figures = Vec::new();
+        for section in &self.sections {
+            collect(&section.blocks, &mut figures);
+        }
+        figures
+    }
+}
+
+/// A part of a page, with a heading of its own and an entry in the page's contents.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Section {
+    /// Heading.
+    pub title: String,
+    /// What it holds, in order.
+    pub blocks: Vec<Block>,
+}
+
+impl Section {
+    /// An empty section.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self { title: title.into(), blocks: Vec::new() }
+    }
+
+    /// The section with one more block.
+    #[must_use]
+    pub fn block(mut self, block: impl Into<Block>) -> Self {
+        self.blocks.push(block.into());
+        self
+    }
+
+    /// The section with one more paragraph.
+    #[must_use]
+    pub fn paragraph(self, text: impl Into<Inline>) -> Self {
+        self.block(Block::Paragraph(text.into()))
+    }
+}
+
+/// A piece of a section.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "block", content = "content", rename_all = "snake_case")]
+pub enum Block {
+    /// Running text.
+    Paragraph(Inline),
+    /// A bulleted list.
+    List(Vec<Inline>),
+    /// A table.
+    Table(Table),
+    /// One or more plots under one caption.
+    Figure(Figure),
+    /// A listing.
+    Code {
+        /// Language, for the reader and for the JSON; nothing is highlighted.
+        lang: String,
+        /// The listing.
+        text: String,
+    },
+    /// A remark that must not be overlooked.
+    Notice {
+        /// What kind of remark.
+        level: NoticeLevel,
+        /// The remark.
+        text: Inline,
+    },
+    /// Blocks shown on demand: long tables that few readers need.
+    Details {
+        /// What is inside.
+        summary: Inline,
+        /// The blocks.
+        blocks: Vec<Block>,
+    },
+}
+
+impl From<Table> for Block {
+    fn from(table: Table) -> Self {
+        Self::Table(table)
+    }
+}
+
+impl From<Figure> for Block {
+    fn from(figure: Figure) -> Self {
+        Self::Figure(figure)
+    }
+}
+
+/// What kind of remark a notice is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NoticeLevel {
+    /// Worth knowing.
+    Info,
+    /// Something is close to its limit, or unusual.
+    Warning,
+    /// Something is wrong.
+    Failure,
+    /// Something was not measured, and why.
+    NotMeasured,
+}
+
+impl NoticeLevel {
+    /// The word that opens the notice.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Info => "note",
+            Self::Warning => "warning",
+            Self::Failure => "failure",
+            Self::NotMeasured => "not measured",
+        }
+    }
+}
+
+/// Plots under one caption, drawn as one SVG with one legend: `figures/<file_stem>.svg`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Figure {
+    /// What is shown and what to see in it.
+    pub caption: Inline,
+    /// File name without extension, unique in the report: lower-case letters, digits, `-`, `_`.
+    pub file_stem: String,
+    /// The plots, row by row. A series of the same name looks the same in all of them.
+    pub plots: Vec<Plot>,
+    /// Plots per row, from 1 to 4.
+    pub per_row: usize,
+}
+
+impl Figure {
+    /// A figure of one plot.
+    pub fn new(file_stem: impl Into<String>, caption: impl Into<Inline>, plot: Plot) -> Self {
+        Self::grid(file_stem, caption, vec![plot], 1)
+    }
+
+    /// Small multiples, `per_row` plots in a row.
+    pub fn grid(
+        file_stem: impl Into<String>,
+        caption: impl Into<Inline>,
+        plots: Vec<Plot>,
+        per_row: usize,
+    ) -> Self {
+        Self { caption: caption.into(), file_stem: file_stem.into(), plots, per_row }
+    }
+}
+
+/// Where a report comes from: in the footer of every page and at the head of the JSON.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Provenance {
+    /// Version of striae.
+    pub version: String,
+    /// Adapter, driver and backend; absent when no device was measured.
+    #[serde(serialize_with = "or_not_measured")]
+    pub adapter: Option<String>,
+    /// The command that regenerates the report.
+    pub command: String,
+    /// Further facts, in order: name and value.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub facts: Vec<(String, String)>,
+}
+
+impl Provenance {
+    /// The adapter, or that there was none.
+    #[must_use]
+    pub fn adapter_or_not_measured(&self) -> &str {
+        self.adapter.as_deref().unwrap_or("not measured: no adapter found")
+    }
+
+    /// Every fact in words: name and value, in order.
+    #[must_use]
+    pub fn lines(&self) -> Vec<(&str, &str)> {
+        let mut lines = vec![
+            ("striae", self.version.as_str()),
+            ("adapter", self.adapter_or_not_measured()),
+            ("command", self.command.as_str()),
+        ];
+        lines.extend(self.facts.iter().map(|(name, value)| (name.as_str(), value.as_str())));
+        lines
+    }
+}
+
+fn or_not_measured<S: Serializer>(
+    adapter: &Option<String>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    adapter.as_deref().unwrap_or("not measured: no adapter found").serialize(serializer)
+}

@@ -1,0 +1,97 @@
+//! Blocks of a section as HTML.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::tables::table;
+use crate::report::document::{Block, Figure, Inline, NoticeLevel, Span};
+use crate::report::plot::{Drawing, PlotError, draw};
+
+/// Text with its markup.
+pub(super) fn inline(text: &Inline) -> Markup {
+    html! {
+        @for span in text.spans() {
+            @match span {
+                Span::Plain(text) => (text),
+                Span::Code(text) => code { (text) },
+                Span::Link { text, href } => a href=(safe(href)) { (text) },
+            }
+        }
+    }
+}
+
+/// `href`, unless it would run a script.
+pub(super) fn safe(href: &str) -> &str {
+    let scheme = href.split_once(':').map(|(scheme, _)| scheme.trim().to_ascii_lowercase());
+    match scheme.as_deref() {
+        None | Some("http" | "https" | "mailto") => href,
+        // A colon after a slash or in a fragment is part of a path.
+        Some(scheme) if scheme.contains(['/', '#', '?', '.']) => href,
+        Some(_) => "#",
+    }
+}
+
+/// A block; the drawings of its figures are added to `drawings`.
+pub(super) fn block(
+    block: &Block,
+    drawings: &mut Vec<(String, Drawing)>,
+) -> Result<Markup, PlotError> {
+    Ok(match block {
+        Block::Paragraph(text) => html! { p { (inline(text)) } },
+        Block::List(items) => html! { ul { @for item in items { li { (inline(item)) } } } },
+        Block::Table(one) => table(one),
+        Block::Figure(one) => figure(one, drawings)?,
+        Block::Code { lang, text } => html! { pre data-lang=(lang) { code { (text) } } },
+        Block::Notice { level, text } => html! {
+            p class={ "notice " (level_class(*level)) } role="note" {
+                strong { (level.word()) } " " (inline(text))
+            }
+        },
+        Block::Details { summary, blocks } => {
+            let inner =
+                blocks.iter().map(|b| self::block(b, drawings)).collect::<Result<Vec<_>, _>>()?;
+            html! { details { summary { (inline(summary)) } @for one in &inner { (one) } } }
+        }
+    })
+}
+
+fn figure(figure: &Figure, drawings: &mut Vec<(String, Drawing)>) -> Result<Markup, PlotError> {
+    let drawing = draw(figure)?;
+    let markup = html! {
+        figure id=(figure.file_stem) {
+            div.scroll tabindex="0" role="region" aria-label={ "figure " (figure.file_stem) } {
+                (PreEscaped(&drawing.svg))
+            }
+            figcaption {
+                (inline(&figure.caption))
+                @for note in &drawing.notes { " " span.note { (note) } }
+                " " a.file href={ "figures/" (figure.file_stem) ".svg" } { "SVG" }
+            }
+        }
+    };
+    drawings.push((figure.file_stem.clone(), drawing));
+    Ok(markup)
+}
+
+fn level_class(level: NoticeLevel) -> &'static str {
+    match level {
+        NoticeLevel::Info => "info",
+        NoticeLevel::Warning => "warning",
+        NoticeLevel::Failure => "failure",
+        NoticeLevel::NotMeasured => "not-measured",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::safe;
+
+    #[test]
+    fn scripts_are_no_links() {
+        assert_eq!(safe("javascript:alert(1)"), "#");
+        assert_eq!(safe(" JavaScript:alert(1)"), "#");
+        assert_eq!(safe("data:text/html,x"), "#");
+        for plain in ["https://doi.org/10.1/x", "fresnel.html#a", "a/b:c", "#x:y"] {
+            assert_eq!(safe(plain), plain);
+        }
+    }
+}

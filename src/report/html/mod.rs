@@ -1,0 +1,10 @@
+//! The report as HTML: one self-contained page per [`Page`](super::document::Page), no network,
+//! no other files needed to read it.
+
+mod blocks;
+mod shell;
+mod site;
+mod tables;
+
+pub use shell::{Rendered, render_page};
+pub use site::{SiteError, Written, write_site};

@@ -1,0 +1,189 @@
+//! The report as a folder: pages, JSON, text, and every figure as a file.
+
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::shell::render_page;
+use crate::report::document::{Page, Provenance};
+use crate::report::plot::PlotError;
+use crate::report::{json, text};
+
+/// What lists the figures that the last run wrote.
+const MANIFEST: &str = "figures/manifest.json";
+
+/// Why a report cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum SiteError {
+    /// A name that cannot be a file name everywhere.
+    #[error("{what} {got:?}: expected lower-case letters, digits, `-` and `_`")]
+    Name {
+        /// `page slug` or `figure stem`.
+        what: &'static str,
+        /// The name.
+        got: String,
+    },
+    /// Two pages or two figures of the same name.
+    #[error("{what} {name:?} is used twice")]
+    Twice {
+        /// `page slug` or `figure stem`.
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A figure cannot be drawn.
+    #[error("page {page}: {source}")]
+    Plot {
+        /// Slug of its page.
+        page: String,
+        /// Why.
+        source: PlotError,
+    },
+    /// The model cannot be written as JSON.
+    #[error("report.json: {0}")]
+    Json(#[from] serde_json::Error),
+    /// A file or folder cannot be written.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+}
+
+/// What a run wrote.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Written {
+    /// Every file of the report, whether or not its bytes changed, in the order written.
+    pub files: Vec<PathBuf>,
+    /// Figures of an earlier run that are no longer part of the report and were removed.
+    pub removed: Vec<PathBuf>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Manifest {
+    figures: BTreeSet<String>,
+}
+
+/// Writes `index.html`, `<slug>.html` for every page, `report.json`, `report.txt` and
+/// `figures/<stem>.svg` into `dir`, which is made if it is not there.
+///
+/// Without a page `index`, one is made that lists the others. Everything is rendered before the
+/// first file is written; each file is written beside its place and renamed, so that an interrupted
+/// run leaves whole files. A file whose bytes would not change is not touched. Only figures that an
+/// earlier run listed in `figures/manifest.json` are ever removed; without a readable manifest,
+/// none.
+///
+/// # Errors
+/// [`SiteError`] if a name is unusable or used twice, a figure cannot be drawn, or a file cannot be
+/// written.
+pub fn write_site(
+    dir: &Path,
+    pages: &[Page],
+    provenance: &Provenance,
+) -> Result<Written, SiteError> {
+    unique("page slug", pages.iter().map(|p| p.slug.as_str()))?;
+    let figures = pages.iter().flat_map(|p| p.figures().into_iter().map(|f| f.file_stem.as_str()));
+    unique("figure stem", figures)?;
+    let mut pages = pages.to_vec();
+    if !pages.iter().any(|p| p.slug == "index") {
+        let summary = "What was fitted to what, how wrong it is, and what it costs.";
+        pages.insert(0, Page::new("index", "Report", summary));
+    }
+
+    let mut files: Vec<(String, String)> = Vec::new();
+    let mut listed = BTreeSet::new();
+    for page in &pages {
+        let rendered = render_page(page, &pages, provenance)
+            .map_err(|source| SiteError::Plot { page: page.slug.clone(), source })?;
+        for (stem, drawing) in rendered.drawings {
+            files.push((format!("figures/{stem}.svg"), drawing.standalone()));
+            listed.insert(format!("{stem}.svg"));
+        }
+        files.push((format!("{}.html", page.slug), rendered.html));
+    }
+    files.push(("report.json".to_owned(), json::report(&pages, provenance)?));
+    files.push(("report.txt".to_owned(), text::report(&pages, provenance)));
+    let manifest = Manifest { figures: listed };
+    let manifest_text = serde_json::to_string_pretty(&manifest)? + "\n";
+
+    let mut written = Written::default();
+    let folder = dir.join("figures");
+    std::fs::create_dir_all(&folder).map_err(|source| SiteError::Io { path: folder, source })?;
+    let mut removed = Vec::new();
+    let mut put = |name: &str, content: &str| -> Result<(), SiteError> {
+        let path = dir.join(name);
+        write_whole(&path, content)
+            .map_err(|source| SiteError::Io { path: path.clone(), source })?;
+        written.files.push(path);
+        Ok(())
+    };
+    for (name, content) in &files {
+        put(name, content)?;
+    }
+    for stale in old_figures(dir).difference(&manifest.figures) {
+        let path = dir.join("figures").join(stale);
+        if path.is_file() {
+            std::fs::remove_file(&path)
+                .map_err(|source| SiteError::Io { path: path.clone(), source })?;
+            removed.push(path);
+        }
+    }
+    // Last, so that what an interrupted run leaves behind is still listed for the next.
+    put(MANIFEST, &manifest_text)?;
+    written.removed = removed;
+    Ok(written)
+}
+
+fn usable(name: &str) -> bool {
+    let allowed = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-' || b == b'_';
+    !name.is_empty() && name.bytes().all(allowed)
+}
+
+fn unique<'a>(what: &'static str, names: impl Iterator<Item = &'a str>) -> Result<(), SiteError> {
+    let mut seen = BTreeSet::new();
+    for name in names {
+        if !usable(name) {
+            return Err(SiteError::Name { what, got: name.to_owned() });
+        }
+        if !seen.insert(name) {
+            return Err(SiteError::Twice { what, name: name.to_owned() });
+        }
+    }
+    Ok(())
+}
+
+/// The figures that an earlier run wrote into `dir`, as its manifest says; names that this module
+/// would not have written are left out, so that nothing else can be removed through it.
+fn old_figures(dir: &Path) -> BTreeSet<String> {
+    let manifest = std::fs::read_to_string(dir.join(MANIFEST))
+        .ok()
+        .and_then(|text| serde_json::from_str::<Manifest>(&text).ok());
+    let mut figures = manifest.map(|m| m.figures).unwrap_or_default();
+    figures.retain(|name| name.strip_suffix(".svg").is_some_and(usable));
+    figures
+}
+
+/// Writes `content` to `path` through a file beside it, unless it is there already.
+fn write_whole(path: &Path, content: &str) -> std::io::Result<()> {
+    if std::fs::read(path).is_ok_and(|old| old == content.as_bytes()) {
+        return Ok(());
+    }
+    let folder = path.parent().unwrap_or_else(|| Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".striae-");
+    #[cfg(unix)]
+    let builder = {
+        use std::os::unix::fs::PermissionsExt;
+        // Readable as any file is; the process's umask still applies.
+        builder.permissions(std::fs::Permissions::from_mode(0o666))
+    };
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(content.as_bytes())?;
+    file.as_file().sync_all()?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}

@@ -1,0 +1,32 @@
+//! Printed and found: claims of papers with this run's numbers beside them.
+
+use super::Evidence;
+use crate::report::document::{Cell, Column, Section, Table, Verdict};
+
+pub(super) fn section(evidence: &Evidence<'_>) -> Section {
+    let section = Section::new("Printed and found");
+    if evidence.study.findings.is_empty() {
+        return section.paragraph("No printed claim is checked for this effect.");
+    }
+    let mut table = Table::new(
+        "What is printed, what holds, and the command that shows it.",
+        vec![
+            Column::text("where"),
+            Column::text("as printed"),
+            Column::text("found"),
+            Column::verdict("verdict"),
+            Column::code("command"),
+        ],
+    );
+    for finding in &evidence.study.findings {
+        let verdict = if finding.verdict == "holds" { Verdict::Pass } else { Verdict::Warn };
+        table.push(vec![
+            Cell::text(finding.place.clone()),
+            Cell::text(finding.printed.clone()),
+            Cell::text(finding.found.clone()),
+            Cell::verdict_as(verdict, finding.verdict.clone()),
+            Cell::text(finding.command.clone()),
+        ]);
+    }
+    section.block(table)
+}
