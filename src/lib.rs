@@ -16,3 +16,5 @@ pub mod effects;
 pub mod fit;
 pub mod validate;
 pub mod report;
+pub mod gate;
+pub mod cli;

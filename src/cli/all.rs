@@ -1,0 +1,106 @@
+//! `all`: fit, validate, report and check; what has not changed is not done again.
+
+use clap::Args;
+use serde::{Deserialize, Serialize};
+
+use super::context::Context;
+use super::fingerprint::{self, Fingerprints};
+use super::fit::{self, Job};
+use super::{Ending, check, report, specs, studies};
+use crate::fit::Spec;
+use crate::table::store::atomic_write;
+use crate::validate::measured::Measured;
+
+const MORE: &str = "\
+A spec is fitted again if it, its data, this program or the committed result changed; the report is
+written again if any result, the data, the gates, this program or the adapter did. --force does
+everything. Exit code 1 if a gate fails, 3 if a fit did not converge.
+
+Example:
+  striae all";
+
+/// The main job: fit, validate, report, check
+#[derive(Debug, Args)]
+#[command(after_help = MORE)]
+pub(super) struct Arguments {
+    /// Do everything again
+    #[arg(long)]
+    force: bool,
+}
+
+/// What an earlier run did, beside the report.
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
+struct State {
+    /// Per spec: fingerprint of what it was made from and of the result.
+    fits: std::collections::BTreeMap<String, String>,
+    /// Fingerprint of what the report was made from and of the report.
+    report: String,
+    /// Verdicts, as printed.
+    verdicts: String,
+    /// Whether every gate passed.
+    passed: bool,
+    /// Whether every fit converged.
+    converged: bool,
+}
+
+/// Runs the stages and prints what they did and the verdicts.
+pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
+    let project = context.project()?;
+    let path = project.reports().join(".state.json");
+    let mut state: State = if arguments.force {
+        State::default()
+    } else {
+        // A state that cannot be read is one that says nothing: everything is done again.
+        std::fs::read_to_string(&path)
+            .ok()
+            .and_then(|text| serde_json::from_str(&text).ok())
+            .unwrap_or_default()
+    };
+    let device = studies::device()?;
+    let adapter = match &device {
+        Measured::Value(device) => device.description().to_string(),
+        Measured::NotMeasured(reason) => reason.clone(),
+    };
+    let fingerprints = Fingerprints::new(project)?;
+
+    let mut jobs = Vec::new();
+    let files = specs::find(&project.fits())?;
+    for file in &files {
+        if state.fits.get(&file.name) != Some(&fingerprints.of_fit(file)) {
+            jobs.push(Job { spec: Spec::read(&file.path)?, result: file.result() });
+        }
+    }
+    let fitted = fit::fit(&jobs, project.root(), context)?;
+    context.output.note(&format!("fit: {} of {} specs", jobs.len(), files.len()));
+    state.fits = files.iter().map(|file| (file.name.clone(), fingerprints.of_fit(file))).collect();
+    let unchanged = jobs.is_empty()
+        && state.report == fingerprints.of_report(&adapter, &state.fits, project)?;
+    if unchanged {
+        context.output.note("report: unchanged");
+    } else {
+        state.converged =
+            fit::ending(&fitted) == Ending::Done && (state.converged || jobs.len() == files.len());
+        let check = check::check(context, None, false)?;
+        let written = report::write(&project.reports(), &check, &device, context)?;
+        let folder = project.shown(&project.reports());
+        context.output.note(&format!("report: {} files in {folder}", written.files.len()));
+        state.verdicts = check::text(&check);
+        state.passed = check.passed();
+        state.report = fingerprints.of_report(&adapter, &state.fits, project)?;
+        atomic_write(&path, fingerprint::json(&state)?.as_bytes())?;
+    }
+    let verdicts = &state.verdicts;
+    let summary = serde_json::json!({
+        "fitted": jobs.iter().map(|job| job.spec.name.as_str()).collect::<Vec<_>>(),
+        "report_written": !unchanged,
+        "converged": state.converged,
+        "passed": state.passed,
+        "adapter": adapter,
+    });
+    context.output.result(&summary, || verdicts.clone())?;
+    Ok(match (state.passed, state.converged) {
+        (false, _) => Ending::GateFailed,
+        (true, false) => Ending::NotConverged,
+        (true, true) => Ending::Done,
+    })
+}

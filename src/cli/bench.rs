@@ -1,0 +1,201 @@
+//! `bench`: what forms and references cost, beside their error.
+
+use clap::Args;
+use serde::Serialize;
+
+use super::Ending;
+use super::context::Context;
+use super::output::{significant, table};
+use super::studies::{self, Results, Studied};
+use crate::validate::cost::{Cost, Costs};
+use crate::validate::measured::Measured;
+
+const MORE: &str = "\
+Forms are timed in one run, interleaved, on f64 and f32 lanes (one core) and, where there is an
+adapter, on the device net of an empty kernel. Quote the ratios: the nanoseconds are this machine's.
+A form on the frontier is beaten by no other in both error and cost.
+
+Example:
+  striae bench sine_integral";
+
+/// Cost of forms and references, against their error
+#[derive(Debug, Args)]
+#[command(after_help = MORE)]
+pub(super) struct Arguments {
+    /// Effects [default: all]
+    #[arg(value_name = "NAME")]
+    effects: Vec<String>,
+}
+
+/// One form: its error and its cost.
+#[derive(Debug, Serialize)]
+struct Line {
+    fit: String,
+    /// Largest error in f32, by region (or over all members of a family).
+    max_abs: Vec<(String, f64)>,
+    frontier: bool,
+    #[serde(flatten)]
+    cost: Cost,
+}
+
+#[derive(Debug, Serialize)]
+struct Bench {
+    effect: String,
+    costs: Costs,
+    forms: Vec<Line>,
+}
+
+/// Times, and prints the frontier.
+pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
+    let effects = studies::effects(&arguments.effects)?;
+    let results = Results::read(context.project()?)?;
+    let device = studies::device()?;
+    let mut benches = Vec::new();
+    for effect in effects {
+        benches.push(bench(&studies::measure(effect, &results, &device, context)?));
+    }
+    context.output.result(&benches, || benches.iter().map(text).collect::<Vec<_>>().join("\n"))?;
+    Ok(Ending::Done)
+}
+
+fn bench(studied: &Studied) -> Bench {
+    let mut forms: Vec<Line> = studied
+        .costs
+        .forms
+        .iter()
+        .map(|cost| Line {
+            fit: cost.name.clone(),
+            max_abs: errors(studied, &cost.name),
+            frontier: false,
+            cost: cost.clone(),
+        })
+        .collect();
+    forms.sort_by(|a, b| a.cost.nanoseconds().total_cmp(&b.cost.nanoseconds()));
+    // Fits to references and fits to families answer different questions: a frontier each.
+    for single in [true, false] {
+        let mut best = f64::INFINITY;
+        for line in forms.iter_mut().filter(|line| is_single(studied, &line.fit) == single) {
+            let worst = line.max_abs.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+            line.frontier = worst < best;
+            best = best.min(worst);
+        }
+    }
+    Bench { effect: studied.effect.name.to_owned(), costs: studied.costs.clone(), forms }
+}
+
+fn is_single(studied: &Studied, fit: &str) -> bool {
+    studied.study.fits.iter().any(|study| study.outcome.name == fit)
+}
+
+fn errors(studied: &Studied, fit: &str) -> Vec<(String, f64)> {
+    if let Some(study) = studied.study.fits.iter().find(|study| study.outcome.name == fit) {
+        let region = |(name, accuracy): &(String, crate::validate::accuracy::Accuracy)| {
+            (name.clone(), accuracy.f32.max_abs)
+        };
+        return study.regions.iter().map(region).collect();
+    }
+    let forms = studied.study.families.iter().flat_map(|family| &family.forms);
+    forms
+        .filter(|form| form.fit == fit)
+        .flat_map(|form| [("all members".to_owned(), form.max_abs), ("RMS".to_owned(), form.rms)])
+        .collect()
+}
+
+fn text(bench: &Bench) -> String {
+    let mut text = match &bench.costs.adapter {
+        Measured::Value(adapter) => format!("{}: device {adapter}\n", bench.effect),
+        Measured::NotMeasured(reason) => {
+            format!("{}: device not measured: {reason}\n", bench.effect)
+        }
+    };
+    text.push_str(&table(
+        &[
+            "fit",
+            "frontier",
+            "max |error|, f32",
+            "device ns",
+            "ratio",
+            "quartiles of the ratio",
+            "f32 lanes ns",
+            "f64 lanes ns",
+        ],
+        bench.forms.iter().map(row).collect(),
+    ));
+    let references = &bench.costs.references;
+    text.push_str(&table(
+        &["reference", "f64 ns"],
+        references.iter().map(|r| vec![r.name.clone(), significant(r.ns, 3)]).collect(),
+    ));
+    text.push_str(&asked(bench));
+    text
+}
+
+fn row(line: &Line) -> Vec<String> {
+    let errors: Vec<String> = line
+        .max_abs
+        .iter()
+        .map(|(region, error)| format!("{} ({region})", significant(*error, 3)))
+        .collect();
+    let (nanoseconds, ratio, quartiles) = match &line.cost.device {
+        Measured::Value(timing) => (
+            significant(timing.net_ns.median, 3),
+            timing.ratio.map_or_else(|| "–".into(), |ratio| significant(ratio.median, 3)),
+            timing.ratio.map_or_else(String::new, |ratio| {
+                format!("{} – {}", significant(ratio.p25, 3), significant(ratio.p75, 3))
+            }),
+        ),
+        Measured::NotMeasured(_) => ("not measured".into(), "not measured".into(), String::new()),
+    };
+    vec![
+        line.fit.clone(),
+        if line.frontier { "●".into() } else { String::new() },
+        errors.join(", "),
+        nanoseconds,
+        ratio,
+        quartiles,
+        significant(line.cost.lanes_f32_ns, 3),
+        significant(line.cost.lanes_f64_ns, 3),
+    ]
+}
+
+/// The two questions a renderer asks of the baseline: what is as cheap and better, what is as good
+/// and cheaper.
+fn asked(bench: &Bench) -> String {
+    let Some(baseline) = bench.forms.iter().find(|line| line.fit == bench.costs.baseline) else {
+        return String::new();
+    };
+    let worst = |line: &Line| line.max_abs.iter().map(|(_, e)| *e).fold(0.0, f64::max);
+    let comparable = |line: &&Line| line.max_abs.len() == baseline.max_abs.len();
+    let ratio = |line: &Line| line.cost.nanoseconds() / baseline.cost.nanoseconds();
+    let mut text =
+        format!("baseline {}: max |error| {}\n", baseline.fit, significant(worst(baseline), 3));
+    let best = bench
+        .forms
+        .iter()
+        .filter(comparable)
+        .filter(|line| ratio(line) <= 1.0)
+        .min_by(|a, b| worst(a).total_cmp(&worst(b)));
+    if let Some(line) = best {
+        text.push_str(&format!(
+            "most accurate at no more than its cost: {} ({} at {}×)\n",
+            line.fit,
+            significant(worst(line), 3),
+            significant(ratio(line), 3)
+        ));
+    }
+    let cheapest = bench
+        .forms
+        .iter()
+        .filter(comparable)
+        .filter(|line| worst(line) < worst(baseline))
+        .min_by(|a, b| a.cost.nanoseconds().total_cmp(&b.cost.nanoseconds()));
+    if let Some(line) = cheapest {
+        text.push_str(&format!(
+            "cheapest that is more accurate: {} ({} at {}×)\n",
+            line.fit,
+            significant(worst(line), 3),
+            significant(ratio(line), 3)
+        ));
+    }
+    text
+}

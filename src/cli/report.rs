@@ -1,0 +1,120 @@
+//! `report`: measures everything and writes the report.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::Ending;
+use super::check;
+use super::context::Context;
+use super::progress;
+use super::studies::{self, Results, Studied};
+use crate::effects::registry::EFFECTS;
+use crate::gate::{Check, Judgement, Verdict as Standing};
+use crate::gpu::Device;
+use crate::report::document::{Page, Provenance, Verdict};
+use crate::report::html::{Written, write_site};
+use crate::report::pages::{Evidence, GateLine, effect_page, index_page};
+use crate::validate::measured::Measured;
+
+const MORE: &str = "\
+Writes index.html and a page per effect (self-contained, no network), report.json, report.txt and
+figures/*.svg.
+
+Example:
+  striae report -o /tmp/report";
+
+/// Measure every effect and write the report
+#[derive(Debug, Args)]
+#[command(after_help = MORE)]
+pub(super) struct Arguments {
+    /// Folder of the report [default: reports in the project]
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+/// Measures, writes, and says where.
+pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
+    let folder = match &arguments.output {
+        Some(folder) => folder.clone(),
+        None => context.project()?.reports(),
+    };
+    let device = studies::device()?;
+    let check = check::check(context, None, false)?;
+    let written = write(&folder, &check, &device, context)?;
+    context.output.result(&serde_json::json!({ "files": written.files }), || {
+        format!("{} files in {}\n", written.files.len(), folder.display())
+    })?;
+    Ok(Ending::Done)
+}
+
+/// Measures every effect and writes the report with the verdicts of `check`.
+pub(super) fn write(
+    folder: &Path,
+    check: &Check,
+    device: &Measured<Device>,
+    context: &Context,
+) -> anyhow::Result<Written> {
+    let project = context.project()?;
+    let results = Results::read(project)?;
+    let bar = progress::bar(context.output, EFFECTS.len() + 1);
+    let mut studied = Vec::new();
+    for effect in EFFECTS {
+        bar.set_message(format!("measuring {}", effect.name));
+        studied.push(studies::measure(effect, &results, device, context)?);
+        bar.inc(1);
+    }
+    bar.set_message("writing the report");
+    let lines: Vec<GateLine> = check.gates.iter().map(line).collect();
+    let of: Vec<Vec<GateLine>> = studied.iter().map(|studied| gates_of(studied, &lines)).collect();
+    let evidence: Vec<Evidence<'_>> = studied
+        .iter()
+        .zip(&of)
+        .map(|(studied, gates)| Evidence {
+            effect: studied.effect,
+            study: &studied.study,
+            costs: &studied.costs,
+            families: &studied.families,
+            members: &studied.members,
+            gates,
+            root: project.root(),
+        })
+        .collect();
+    let mut pages = vec![index_page(&evidence, &lines)];
+    pages.extend(evidence.iter().map(effect_page).collect::<Result<Vec<Page>, _>>()?);
+    let provenance = Provenance {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        adapter: device.value().map(|device| device.description().to_string()),
+        command: "striae report".to_owned(),
+        facts: Vec::new(),
+    };
+    let written = write_site(folder, &pages, &provenance)?;
+    bar.finish_and_clear();
+    Ok(written)
+}
+
+fn gates_of(studied: &Studied, lines: &[GateLine]) -> Vec<GateLine> {
+    let prefix = format!("{}/", studied.effect.name);
+    lines.iter().filter(|line| line.subject.starts_with(&prefix)).cloned().collect()
+}
+
+fn line(judgement: &Judgement) -> GateLine {
+    let gate = &judgement.gate;
+    let domain = gate.domain.as_ref().map(|domain| format!(" over {domain}")).unwrap_or_default();
+    GateLine {
+        subject: gate.subject.clone(),
+        metric: format!("{} {}{domain}", gate.metric, gate.precision),
+        measured: match (&judgement.measured, &judgement.reason) {
+            (Some(measured), _) => Ok(measured.value),
+            (None, reason) => Err(reason.clone().unwrap_or_default()),
+        },
+        limit: gate.limit,
+        verdict: match judgement.verdict {
+            Standing::Pass => Verdict::Pass,
+            Standing::Warn => Verdict::Warn,
+            Standing::NotMeasured => Verdict::NotMeasured,
+            Standing::Fail => Verdict::Fail,
+        },
+        why: gate.why.clone(),
+    }
+}

@@ -1,0 +1,53 @@
+//! Verdicts as GitHub workflow commands, which show up beside the gate's line.
+
+use super::{Judgement, Reproduction, Verdict};
+
+/// One `::error` or `::warning` line per gate that is not plainly passed, a `::notice` where it
+/// was not measured, and a closing notice with the counts. `file` is the gate file as the
+/// repository names it.
+pub fn annotations(file: &str, judgements: &[Judgement], reproductions: &[Reproduction]) -> String {
+    let mut text = String::new();
+    for judgement in judgements {
+        let Some(level) = level(judgement.verdict) else { continue };
+        let gate = &judgement.gate;
+        let message = format!("{}; {}", judgement.summary(), gate.why);
+        text.push_str(&format!(
+            "::{level} file={},line={},title={}::{}\n",
+            property(file),
+            gate.line,
+            property(&format!("{}: {}", gate.subject, judgement.verdict.name())),
+            data(&message)
+        ));
+    }
+    for reproduction in reproductions {
+        let Some(level) = level(reproduction.verdict) else { continue };
+        text.push_str(&format!(
+            "::{level} file={},title={}::{}\n",
+            property(&reproduction.file),
+            property(&format!("{}: constants", reproduction.fit)),
+            data(&reproduction.detail)
+        ));
+    }
+    let failed = judgements.iter().filter(|judgement| judgement.verdict == Verdict::Fail).count();
+    text.push_str(&format!("::notice::{} gates, {failed} failed\n", judgements.len()));
+    text
+}
+
+fn level(verdict: Verdict) -> Option<&'static str> {
+    match verdict {
+        Verdict::Pass => None,
+        Verdict::Warn => Some("warning"),
+        Verdict::NotMeasured => Some("notice"),
+        Verdict::Fail => Some("error"),
+    }
+}
+
+/// Text after `::`, where a line break would end the command.
+fn data(text: &str) -> String {
+    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+}
+
+/// Text of a property, where `:` and `,` are separators too.
+fn property(text: &str) -> String {
+    data(text).replace(':', "%3A").replace(',', "%2C")
+}

@@ -1,0 +1,113 @@
+//! What a gate says.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use super::Domain;
+
+/// One budget, as written in `fits/gates.toml`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gate {
+    /// Position in the file, from 1.
+    pub index: usize,
+    /// Line of its `subject` in the file, from 1.
+    pub line: usize,
+    /// A fit (`effect/name`), a family of fits (`effect/name`: its worst member) or one member
+    /// (`effect/name#label`).
+    pub subject: String,
+    /// What is measured.
+    pub metric: Metric,
+    /// In which arithmetic the form is evaluated.
+    pub precision: Precision,
+    /// Over which points; absent means the region that the fit itself was made on.
+    pub domain: Option<Domain>,
+    /// Largest value accepted: finite, > 0, in the metric's unit.
+    pub limit: f64,
+    /// Value from which on the gate warns; at most `limit`.
+    pub warn: Option<f64>,
+    /// File whose constants are compared with the fitted ones, relative to the project; for the
+    /// metric `drift` and for it only.
+    pub shipped: Option<PathBuf>,
+    /// Why the limit is what it is.
+    pub why: String,
+}
+
+/// What a gate measures of the errors, form minus target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Metric {
+    /// Largest magnitude.
+    MaxAbs,
+    /// Root mean square.
+    Rms,
+    /// Magnitude of the mean.
+    Bias,
+    /// Median magnitude.
+    P50,
+    /// 95th percentile of the magnitude.
+    P95,
+    /// 99th percentile of the magnitude.
+    P99,
+    /// Largest magnitude relative to the target, where the target is not 0.
+    MaxRel,
+    /// Largest distance, in units in the last place of f32, between a constant in the shipped file
+    /// and the fitted one.
+    Drift,
+}
+
+impl Metric {
+    /// Every metric, in the order of the documentation.
+    pub const ALL: [Self; 8] = [
+        Self::MaxAbs,
+        Self::Rms,
+        Self::Bias,
+        Self::P50,
+        Self::P95,
+        Self::P99,
+        Self::MaxRel,
+        Self::Drift,
+    ];
+
+    /// Name in the file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MaxAbs => "max_abs",
+            Self::Rms => "rms",
+            Self::Bias => "bias",
+            Self::P50 => "p50",
+            Self::P95 => "p95",
+            Self::P99 => "p99",
+            Self::MaxRel => "max_rel",
+            Self::Drift => "drift",
+        }
+    }
+}
+
+impl fmt::Display for Metric {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// In which arithmetic a gate evaluates the form.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Precision {
+    /// The f32 constants in f64 arithmetic: the error of the form itself.
+    F64,
+    /// The f32 constants in f32, correctly rounded: the same on every machine.
+    #[default]
+    F32,
+    /// On the device; not measured where there is none.
+    Device,
+}
+
+impl fmt::Display for Precision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::F64 => "f64",
+            Self::F32 => "f32",
+            Self::Device => "device",
+        })
+    }
+}

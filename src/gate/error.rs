@@ -1,0 +1,76 @@
+//! Why gates could not be judged at all, as opposed to failing.
+
+use super::{Gate, GateFileError};
+use crate::effects::registry::FamilyError;
+use crate::fit::FitError;
+use crate::table::TableError;
+use crate::validate::ValidateError;
+
+/// Why gates could not be judged. None of these is ever a pass.
+#[derive(Debug, thiserror::Error)]
+pub enum GateError {
+    /// The gate file is unusable.
+    #[error(transparent)]
+    File(#[from] GateFileError),
+    /// No spec has the name.
+    #[error("fits/gates.toml:{line}: gate {gate}, key subject: there is no spec for `{subject}`")]
+    UnknownSubject {
+        /// Position of the gate, from 1.
+        gate: usize,
+        /// Its line, from 1.
+        line: usize,
+        /// The subject.
+        subject: String,
+    },
+    /// The fit has no such member.
+    #[error(
+        "fits/gates.toml:{line}: gate {gate}, key subject: `{subject}` is no member; there are: \
+         {known}"
+    )]
+    UnknownMember {
+        /// Position of the gate, from 1.
+        gate: usize,
+        /// Its line, from 1.
+        line: usize,
+        /// The subject.
+        subject: String,
+        /// Labels of the members.
+        known: String,
+    },
+    /// The gate does not fit its subject.
+    #[error("fits/gates.toml:{line}: gate {gate} on {subject}: {what}")]
+    Mismatch {
+        /// Position of the gate, from 1.
+        gate: usize,
+        /// Its line, from 1.
+        line: usize,
+        /// The subject.
+        subject: String,
+        /// Expected and got.
+        what: String,
+    },
+    /// A spec or a result is unusable.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// A form or a reference could not be evaluated, or the device failed.
+    #[error(transparent)]
+    Validate(#[from] ValidateError),
+    /// A table is unusable.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// A family could not be made.
+    #[error(transparent)]
+    Family(#[from] FamilyError),
+}
+
+impl Gate {
+    /// A [`GateError::Mismatch`] of this gate.
+    pub(super) fn fault(&self, what: String) -> GateError {
+        GateError::Mismatch {
+            gate: self.index,
+            line: self.line,
+            subject: self.subject.clone(),
+            what,
+        }
+    }
+}

@@ -1,0 +1,264 @@
+//! Shows that gates can fail: moves each constant until its gates notice.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
+use super::subject::{Instance, Lever, Subject, reached};
+use super::{Evidence, Gate, GateError, Metric, Precision, ShippedConstants};
+use crate::gpu::Device;
+use crate::numeric::ulp::ulp_distance_f32;
+use crate::validate::measured::Measured;
+
+/// Relative steps, tried in this order with both signs. A constant that can move by 30 % unnoticed
+/// is not guarded.
+const STEPS: [f64; 8] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
+
+/// Whether a gate notices a constant.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Proof {
+    /// Position of the gate in its file, from 1.
+    pub gate: usize,
+    /// Its line, from 1.
+    pub line: usize,
+    /// Its subject.
+    pub subject: String,
+    /// Its metric.
+    pub metric: Metric,
+    /// The constant that was moved, or `output` for all values of a form without constants.
+    pub constant: String,
+    /// The smallest step, relative, that fails the gate; none if no step does.
+    pub step: Option<f64>,
+    /// What the metric reaches there.
+    pub value: Option<f64>,
+    /// The gate's limit.
+    pub limit: f64,
+    /// Fits of the subject that fail the gate when the constant moves in them alone.
+    pub alone: usize,
+    /// Fits of the subject.
+    pub of: usize,
+}
+
+/// The proofs of all gates, and what they leave open.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Proofs {
+    /// One per gate and constant.
+    pub proofs: Vec<Proof>,
+    /// Gates that nothing trips, constants that no gate guards, gates that could not be tried.
+    pub defects: Vec<String>,
+    /// Gates that were tried on f32 lanes because there is no device.
+    pub without_device: usize,
+}
+
+/// Moves every constant of every gate's subject until the gate fails.
+///
+/// # Errors
+/// [`GateError`], as for [`super::judge`].
+pub fn prove(
+    gates: &[Gate],
+    evidence: &mut Evidence,
+    device: &Measured<Device>,
+) -> Result<Proofs, GateError> {
+    let mut found = Proofs::default();
+    for gate in gates {
+        let subject = match evidence.subject(gate)? {
+            Ok(subject) => subject,
+            Err(reason) => {
+                found.defects.push(format!("{} cannot be tried: {reason}", name(gate)));
+                continue;
+            }
+        };
+        if gate.precision == Precision::Device && device.value().is_none() {
+            found.without_device += 1;
+        }
+        let shipped = shipped_text(gate, evidence);
+        if fails(gate, &subject, shipped.as_ref(), device.value())? {
+            found.defects.push(format!("{} fails as it stands: nothing to show", name(gate)));
+            continue;
+        }
+        let mut levers: Vec<&Lever> = Vec::new();
+        for lever in subject.instances.iter().flat_map(|instance| &instance.levers) {
+            if !levers.iter().any(|known| known.name() == lever.name()) {
+                levers.push(lever);
+            }
+        }
+        for lever in levers {
+            let mut proof = unproved(gate, lever, subject.instances.len());
+            for instance in &subject.instances {
+                let trip = trip(gate, instance, lever, shipped.as_ref(), device.value())?;
+                proof.take(trip);
+            }
+            found.proofs.push(proof);
+        }
+    }
+    found.defects.extend(defects(&found.proofs));
+    Ok(found)
+}
+
+fn name(gate: &Gate) -> String {
+    format!("gate {} (line {}) on {} {}", gate.index, gate.line, gate.subject, gate.metric)
+}
+
+fn unproved(gate: &Gate, lever: &Lever, of: usize) -> Proof {
+    Proof {
+        gate: gate.index,
+        line: gate.line,
+        subject: gate.subject.clone(),
+        metric: gate.metric,
+        constant: lever.name().to_owned(),
+        step: None,
+        value: None,
+        limit: gate.limit,
+        alone: 0,
+        of,
+    }
+}
+
+impl Proof {
+    /// Notes what one fit of the subject shows. The worst of a family fails as soon as one does, so
+    /// the smallest step of any fit is that of the whole.
+    fn take(&mut self, trip: Option<(f64, f64)>) {
+        let Some((step, value)) = trip else { return };
+        self.alone += 1;
+        if self.step.is_none_or(|smallest| step.abs() < smallest.abs()) {
+            (self.step, self.value) = (Some(step), Some(value));
+        }
+    }
+}
+
+/// Whether the gate fails unperturbed.
+fn fails(
+    gate: &Gate,
+    subject: &Subject,
+    shipped: Option<&ShippedConstants>,
+    device: Option<&Device>,
+) -> Result<bool, GateError> {
+    for instance in &subject.instances {
+        let levers = instance.levers.iter();
+        let values = match shipped {
+            Some(shipped) => levers.map(|lever| drifted(instance, lever, 0.0, shipped)).collect(),
+            None => {
+                let Instance { shipped, target, .. } = instance;
+                vec![reached(None, shipped, target, gate.metric, gate.precision, device)?.value]
+            }
+        };
+        if values.iter().any(|value| beyond(*value, gate.limit)) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+fn beyond(value: f64, limit: f64) -> bool {
+    value.is_nan() || value > limit
+}
+
+/// The first step at which the gate fails, and the value there.
+fn trip(
+    gate: &Gate,
+    instance: &Instance,
+    lever: &Lever,
+    shipped: Option<&ShippedConstants>,
+    device: Option<&Device>,
+) -> Result<Option<(f64, f64)>, GateError> {
+    for step in STEPS.iter().flat_map(|step| [*step, -*step]) {
+        let value = match shipped {
+            Some(shipped) => drifted(instance, lever, step, shipped),
+            None => {
+                let (form, target) = instance.perturbed(lever, step);
+                reached(None, &form, &target, gate.metric, gate.precision, device)?.value
+            }
+        };
+        if beyond(value, gate.limit) {
+            return Ok(Some((step, value)));
+        }
+    }
+    Ok(None)
+}
+
+fn shipped_text(gate: &Gate, evidence: &Evidence) -> Option<ShippedConstants> {
+    let file = gate.shipped.as_deref()?;
+    let text = std::fs::read_to_string(evidence.root().join(file)).unwrap_or_default();
+    Some(ShippedConstants::read(&file.display().to_string(), &text))
+}
+
+/// Drift of the lever's own constants after the step; not a number, which fails, where the file has
+/// none.
+fn drifted(instance: &Instance, lever: &Lever, step: f64, shipped: &ShippedConstants) -> f64 {
+    let Lever::Constant { places, .. } = lever else { return 0.0 };
+    let (moved, _) = instance.perturbed(lever, step);
+    let parameters = moved.form.parameters().iter().zip(&moved.constants_f32).enumerate();
+    parameters
+        .filter(|(place, _)| places.contains(place))
+        .map(|(_, (parameter, value))| match shipped.value(&parameter.name) {
+            Ok(there) => f64::from(ulp_distance_f32(there, *value)),
+            Err(_) => f64::NAN,
+        })
+        .fold(0.0, |worst: f64, other| if other.is_nan() || other > worst { other } else { worst })
+}
+
+/// What the proofs leave open.
+fn defects(proofs: &[Proof]) -> Vec<String> {
+    let mut defects = Vec::new();
+    let mut gates: BTreeMap<usize, (bool, &Proof)> = BTreeMap::new();
+    let mut guarded: BTreeSet<(&str, &str)> = BTreeSet::new();
+    for proof in proofs {
+        let tripped = proof.step.is_some();
+        gates.entry(proof.gate).or_insert((false, proof)).0 |= tripped;
+        if tripped {
+            guarded.insert((fit(proof), &proof.constant));
+        }
+    }
+    for (tripped, proof) in gates.values() {
+        if !tripped {
+            defects.push(format!(
+                "gate {} (line {}) on {} {} cannot fail: no constant trips its limit {}",
+                proof.gate, proof.line, proof.subject, proof.metric, proof.limit
+            ));
+        }
+    }
+    let constants: BTreeSet<(&str, &str)> =
+        proofs.iter().map(|proof| (fit(proof), proof.constant.as_str())).collect();
+    for (fit, constant) in constants.difference(&guarded) {
+        defects.push(format!("{fit}: no gate guards the constant `{constant}`"));
+    }
+    defects
+}
+
+fn fit(proof: &Proof) -> &str {
+    proof.subject.split('#').next().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn proof(gate: usize, constant: &str, step: Option<f64>) -> Proof {
+        Proof {
+            gate,
+            line: gate,
+            subject: "e/f".to_owned(),
+            metric: Metric::Rms,
+            constant: constant.to_owned(),
+            step,
+            value: step,
+            limit: 1.0,
+            alone: usize::from(step.is_some()),
+            of: 1,
+        }
+    }
+
+    #[test]
+    fn a_constant_guarded_by_another_gate_is_guarded() {
+        let proofs = [proof(1, "a", Some(0.1)), proof(1, "b", None), proof(2, "b", Some(0.1))];
+        assert!(defects(&proofs).is_empty());
+    }
+
+    #[test]
+    fn a_gate_that_nothing_trips_and_its_constant_are_defects() {
+        let proofs = [proof(1, "a", Some(0.1)), proof(2, "b", None)];
+        let defects = defects(&proofs);
+        assert_eq!(defects.len(), 2, "{defects:?}");
+        assert!(defects[0].contains("cannot fail") && defects[1].contains("`b`"), "{defects:?}");
+    }
+}

@@ -1,0 +1,135 @@
+//! What a gate judges: fitted constants in a form, and points that were not fitted.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use super::{Metric, Precision, Reached};
+use crate::fit::outcome::Residuals;
+use crate::gpu::Device;
+use crate::validate::ValidateError;
+use crate::validate::accuracy::{Shipped, Target, residuals_device, residuals_f32, residuals_f64};
+
+/// The fits that one gate judges together: one, or the members of a family.
+#[derive(Debug)]
+pub(super) struct Subject {
+    /// One per fit.
+    pub(super) instances: Vec<Instance>,
+}
+
+/// One fitted form at the points where it is judged.
+#[derive(Debug)]
+pub(super) struct Instance {
+    /// Label of a member of a family.
+    pub(super) label: Option<String>,
+    /// Form and constants.
+    pub(super) shipped: Shipped,
+    /// Points and true values.
+    pub(super) target: Target,
+    /// What a proof perturbs.
+    pub(super) levers: Vec<Lever>,
+}
+
+/// Something of which a gate must notice a change.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Lever {
+    /// A constant, with those that are tied to it: places in the order of the form.
+    Constant {
+        /// Its name.
+        name: String,
+        /// Places that move together.
+        places: Vec<usize>,
+    },
+    /// All values that the form returns, for a form without constants.
+    Output,
+}
+
+impl Lever {
+    /// The constant's name, or `output`.
+    pub(super) fn name(&self) -> &str {
+        match self {
+            Self::Constant { name, .. } => name,
+            Self::Output => "output",
+        }
+    }
+}
+
+impl Instance {
+    /// The same with the lever moved by the relative step; by the step itself from 0.
+    pub(super) fn perturbed(
+        &self,
+        lever: &Lever,
+        step: f64,
+    ) -> (Cow<'_, Shipped>, Cow<'_, Target>) {
+        let (mut shipped, mut target) = (Cow::Borrowed(&self.shipped), Cow::Borrowed(&self.target));
+        match lever {
+            Lever::Constant { places, .. } => {
+                let shipped = shipped.to_mut();
+                for place in places {
+                    if let Some(value) = shipped.constants.get_mut(*place) {
+                        *value = moved(*value, step);
+                    }
+                    if let Some(value) = shipped.constants_f32.get_mut(*place) {
+                        *value = moved(f64::from(*value), step) as f32;
+                    }
+                }
+            }
+            // Values times 1 + step against the target leave the same residuals, up to that
+            // factor, as values against the target over 1 + step.
+            Lever::Output => target.to_mut().values.iter_mut().for_each(|v| *v /= 1.0 + step),
+        }
+        (shipped, target)
+    }
+}
+
+fn moved(value: f64, step: f64) -> f64 {
+    if value == 0.0 { step } else { value * (1.0 + step) }
+}
+
+/// Measures an instance, perturbed or not.
+pub(super) fn reached(
+    label: Option<&str>,
+    shipped: &Shipped,
+    target: &Target,
+    metric: Metric,
+    precision: Precision,
+    device: Option<&Device>,
+) -> Result<Reached, ValidateError> {
+    let residuals = match (precision, device) {
+        (Precision::F64, _) => residuals_f64(shipped, target)?,
+        (Precision::Device, Some(device)) => residuals_device(shipped, target, device)?,
+        (Precision::F32, _) | (Precision::Device, None) => residuals_f32(shipped, target)?,
+    };
+    let (value, at) = figure(metric, &residuals);
+    Ok(Reached { value, at, of: label.map(str::to_owned), count: residuals.count })
+}
+
+/// The metric's value and where it is; not a number as soon as any residual is none, or there is
+/// none at all.
+fn figure(metric: Metric, residuals: &Residuals) -> (f64, BTreeMap<String, f64>) {
+    let nowhere = BTreeMap::new();
+    if residuals.count == 0 || !residuals.max_abs.is_finite() {
+        return (f64::NAN, residuals.max_abs_at.clone());
+    }
+    match metric {
+        Metric::MaxAbs => (residuals.max_abs, residuals.max_abs_at.clone()),
+        Metric::MaxRel => (
+            residuals.max_rel.unwrap_or(f64::NAN),
+            residuals.max_rel_at.clone().unwrap_or_default(),
+        ),
+        Metric::Rms => (residuals.rms, nowhere),
+        Metric::Bias => (residuals.bias.abs(), nowhere),
+        Metric::P50 => (residuals.p50, nowhere),
+        Metric::P95 => (residuals.p95, nowhere),
+        Metric::P99 => (residuals.p99, nowhere),
+        // A drift is no residual: it never comes here, and would fail if it did.
+        Metric::Drift => (f64::NAN, nowhere),
+    }
+}
+
+/// The worst of several; a value that is not a number is worse than any.
+pub(super) fn worst(all: impl IntoIterator<Item = Reached>) -> Option<Reached> {
+    all.into_iter().reduce(|worst, other| {
+        let worse = !worst.value.is_nan() && (other.value.is_nan() || other.value > worst.value);
+        if worse { other } else { worst }
+    })
+}

@@ -1,0 +1,148 @@
+//! What became of a gate.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::Gate;
+
+/// How a gate, or any other check, ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Measured, and within the limit.
+    Pass,
+    /// Within the limit, and at or beyond the value that was set as a warning.
+    Warn,
+    /// What it would take to measure it is not here (a device): neither passed nor failed.
+    NotMeasured,
+    /// Beyond the limit, or not measurable for a reason that the project has to mend.
+    Fail,
+}
+
+impl Verdict {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Warn => "warn",
+            Self::NotMeasured => "not measured",
+            Self::Fail => "FAIL",
+        }
+    }
+}
+
+/// A number of a fit, and where it was reached.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Reached {
+    /// The metric's value, in the target's unit (`max_rel`: 1, `drift`: ulp of f32).
+    pub value: f64,
+    /// Where an extreme is reached: input column to value.
+    pub at: BTreeMap<String, f64>,
+    /// Which member of a family, or which constant (`drift`), is the worst.
+    pub of: Option<String>,
+    /// Number of points, or of constants, that were compared.
+    pub count: usize,
+}
+
+impl Reached {
+    /// `x = 3.56, Au.Johnson@R`: where the value was reached; empty if it has no place.
+    pub fn place(&self) -> String {
+        let mut parts: Vec<String> =
+            self.at.iter().map(|(name, value)| format!("{name} = {}", rounded(*value))).collect();
+        parts.extend(self.of.clone());
+        parts.join(", ")
+    }
+}
+
+/// Six significant digits: enough to find the place again.
+fn rounded(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    format!("{rounded}")
+}
+
+/// A gate with its verdict.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// The gate.
+    pub gate: Gate,
+    /// Its verdict.
+    pub verdict: Verdict,
+    /// What was measured, if anything.
+    pub measured: Option<Reached>,
+    /// Why it failed, or was not measured, where the number does not say it.
+    pub reason: Option<String>,
+}
+
+impl Judgement {
+    /// Holds `measured` against the gate. A value that is not a number fails.
+    pub fn of(gate: Gate, measured: Reached) -> Self {
+        let value = measured.value;
+        let (verdict, reason) = if value.is_nan() {
+            (Verdict::Fail, Some("the error is not a number".to_owned()))
+        } else if value > gate.limit {
+            (Verdict::Fail, None)
+        } else if gate.warn.is_some_and(|warn| value >= warn) {
+            (Verdict::Warn, None)
+        } else {
+            (Verdict::Pass, None)
+        };
+        Self { gate, verdict, measured: Some(measured), reason }
+    }
+
+    /// A gate that fails without a number.
+    pub fn failed(gate: Gate, reason: impl Into<String>) -> Self {
+        Self { gate, verdict: Verdict::Fail, measured: None, reason: Some(reason.into()) }
+    }
+
+    /// A gate that cannot be measured here.
+    pub fn not_measured(gate: Gate, reason: impl Into<String>) -> Self {
+        Self { gate, verdict: Verdict::NotMeasured, measured: None, reason: Some(reason.into()) }
+    }
+
+    /// Part of the limit that is left, 1; negative beyond it.
+    pub fn margin(&self) -> Option<f64> {
+        self.measured.as_ref().map(|measured| 1.0 - measured.value / self.gate.limit)
+    }
+
+    /// One line: `max_abs 0.05098 of 0.05105 (0.1 % left) at x = 3.56`.
+    pub fn summary(&self) -> String {
+        let metric = self.gate.metric;
+        let mut line = match &self.measured {
+            None => format!("{metric} not measured"),
+            Some(measured) => {
+                let margin = 100.0 * self.margin().unwrap_or(f64::NAN);
+                let place = measured.place();
+                let at = if place.is_empty() { String::new() } else { format!(" at {place}") };
+                let (value, limit) = (rounded(measured.value), self.gate.limit);
+                format!("{metric} {value} of {limit} ({margin:.2} % left){at}")
+            }
+        };
+        if let Some(reason) = &self.reason {
+            line.push_str(": ");
+            line.push_str(reason);
+        }
+        line
+    }
+}
+
+impl Serialize for Judgement {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let mut out = serializer.serialize_struct("Judgement", 12)?;
+        let gate = &self.gate;
+        out.serialize_field("subject", &gate.subject)?;
+        out.serialize_field("metric", &gate.metric)?;
+        out.serialize_field("precision", &gate.precision)?;
+        out.serialize_field("domain", &gate.domain.as_ref().map(ToString::to_string))?;
+        out.serialize_field("limit", &gate.limit)?;
+        out.serialize_field("warn", &gate.warn)?;
+        out.serialize_field("why", &gate.why)?;
+        out.serialize_field("line", &gate.line)?;
+        out.serialize_field("verdict", &self.verdict)?;
+        out.serialize_field("measured", &self.measured)?;
+        out.serialize_field("margin", &self.margin().filter(|margin| margin.is_finite()))?;
+        out.serialize_field("reason", &self.reason)?;
+        out.end()
+    }
+}

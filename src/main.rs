@@ -1,0 +1,7 @@
+//! The command line of striae; see `striae::cli`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    striae::cli::main()
+}
