@@ -312,7 +312,8 @@ fn loops_that_do_not_end_are_errors() {
             Err(FormError::Unbounded { line, .. }) => assert!((3..=4).contains(&line), "{line}"),
             other => panic!("{other:?}"),
         }
-        assert!(started.elapsed().as_secs_f64() < 3.0);
+        // A bound on hanging, not on speed: machines are shared.
+        assert!(started.elapsed().as_secs_f64() < 60.0);
     }
     // A loop that ends, if late, is no error.
     assert_eq!(

