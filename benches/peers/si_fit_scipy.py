@@ -1,6 +1,6 @@
 """Fits eq. 29 of velinov2018 to Si on [-10, 10] with SciPy and prints the median time in ms.
 
-The same residuals, start and points as benches/fit.rs: 2001 points, a = 0.5, b = 0.5. With
+The same residuals, start and points as benches/fit.rs: 2001 points, a = 0.7, b = 0.4. With
 `--once` it fits once: the peer of `striae fit sine_integral/refit` as a whole command.
 """
 import statistics
@@ -24,7 +24,7 @@ def residuals(p):
 
 def main():
     once = "--once" in sys.argv
-    start = [float(v) for v in sys.argv[1:3] if v != "--once"] or [0.5, 0.5]
+    start = [float(v) for v in sys.argv[1:3] if v != "--once"] or [0.7, 0.4]
     times = []
     for _ in range(1 if once else 60):
         begin = time.perf_counter()
