@@ -10,6 +10,8 @@ use crate::validate::curves::over_member;
 use crate::validate::family::{Choice, choices, group_rms};
 use crate::validate::study::FamilyStudy;
 
+/// Errors below this magnitude are drawn linearly, larger ones by ratio: the forms span decades.
+const LINEAR_BELOW: f64 = 1e-4;
 /// Groups drawn as error curves: the ones on which the forms differ most.
 const DRAWN: usize = 6;
 
@@ -207,7 +209,7 @@ fn figure(
         let mut plot = Plot::new(
             member.label.clone(),
             Axis::linear("cosine of incidence", "1"),
-            Axis::linear("error", "1"),
+            Axis::symlog("error", "1", LINEAR_BELOW),
         );
         for outcome in evidence.families.iter().filter(|outcome| outcome.family == registered.name)
         {
@@ -222,7 +224,7 @@ fn figure(
     Ok(Figure::grid(
         format!("{}-members", family.family.replace('_', "-")),
         "Error over the cosine of incidence for the six materials on which the forms differ most, \
-         green channel, f32, held-out points.",
+         green channel, f32, held-out points; the axis is linear below 1e-4 in magnitude, logarithmic above.",
         plots,
         2,
     ))
