@@ -20,7 +20,7 @@ const COST: f64 = 1e-15;
 /// Relative change of the variables under which it stops.
 const STEP: f64 = 1e-13;
 /// Cosine between residual and columns under which it stops.
-const GRADIENT: f64 = 1e-11;
+const GRADIENT: f64 = 1e-9;
 
 struct Minpack<'p, 'a> {
     problem: &'p Problem<'a>,

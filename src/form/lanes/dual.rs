@@ -254,7 +254,11 @@ impl Tangents<f64> for Planes {
                 self.combine(to, n, &[(from, Partial::Constant(1.0))]);
             }
             Instr::Store { to: Reg::F(to), from: Reg::F(from) } if self.carried(to) => {
-                self.pick(to, n, |lane| active[lane].then_some(from));
+                if active[..n].iter().all(|active| *active) {
+                    self.combine(to, n, &[(from, Partial::Constant(1.0))]);
+                } else {
+                    self.pick(to, n, |lane| active[lane].then_some(from));
+                }
             }
             Instr::Select { to: Reg::F(to), when, yes: Reg::F(yes), no: Reg::F(no) }
                 if self.carried(to) =>
