@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::context::Context;
 use super::output::{self, significant, table};
-use super::{Ending, specs};
+use super::{Ending, specs, studies};
 use crate::fit::Spec;
 use crate::gate::{self, Check, Gate, Precision, Proofs, Verdict};
 use crate::gpu::{self, Device};
@@ -91,11 +91,7 @@ fn device(gates: &[Gate]) -> anyhow::Result<Measured<Device>> {
     if !wanted && !gpu::required() {
         return Ok(Measured::NotMeasured("no gate needs a device".to_owned()));
     }
-    match Device::open() {
-        Ok(device) => Ok(Measured::Value(device)),
-        Err(error) if gpu::required() => Err(error.into()),
-        Err(error) => Ok(Measured::NotMeasured(error.to_string())),
-    }
+    studies::device()
 }
 
 /// Tables of verdicts, and a line that sums them up.

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use clap::{Args, ValueEnum};
 
+use super::Ending;
 use super::context::Context;
 use super::evaluable::{Evaluable, Shipped};
 use super::output::{self, significant};
 use super::project::Project;
-use super::{Ending, fit_table};
 use crate::effects::registry;
 use crate::fit::Spec;
 use crate::fit::outcome::{Outcome, Residuals};
@@ -134,7 +134,7 @@ fn provenance(outcome: &Outcome, project: Option<&Project>) -> Vec<String> {
             outcome.name,
             outcome.target,
             outcome.loss.replace('_', " "),
-            fit_table::status(outcome.status)
+            outcome.status.words()
         ),
         format!("Spec sha256 {}", source.spec_sha256),
     ];

@@ -4,26 +4,14 @@ use std::collections::BTreeMap;
 
 use super::output::{significant, table};
 use crate::fit::FitResult;
-use crate::fit::outcome::{FamilyOutcome, Outcome, ParameterOutcome, Status};
-
-/// The status as in the JSON, in words.
-pub(super) fn status(status: Status) -> &'static str {
-    match status {
-        Status::Converged => "converged",
-        Status::Stalled => "stalled",
-        Status::HitIterationLimit => "hit iteration limit",
-        Status::AtBound => "at bound",
-        Status::Singular => "singular",
-        Status::NonFinite => "non-finite",
-    }
-}
+use crate::fit::outcome::{FamilyOutcome, Outcome, ParameterOutcome};
 
 /// One line per fit.
 pub(super) fn summary(results: &[FitResult]) -> String {
     let row = |result: &FitResult| match result {
         FitResult::Single(outcome) => vec![
             outcome.name.clone(),
-            status(outcome.status).to_owned(),
+            outcome.status.words().to_owned(),
             free(outcome),
             significant(outcome.residuals_f32.rms, 4),
             significant(outcome.residuals_f32.max_abs, 4),
@@ -38,7 +26,7 @@ fn family_row(family: &FamilyOutcome) -> Vec<String> {
     let members = &family.members;
     let mut endings: BTreeMap<&str, usize> = BTreeMap::new();
     for member in members {
-        *endings.entry(status(member.status)).or_default() += 1;
+        *endings.entry(member.status.words()).or_default() += 1;
     }
     let endings: Vec<String> = endings.iter().map(|(name, n)| format!("{n} {name}")).collect();
     let points: usize = members.iter().map(|m| m.residuals_f32.count).sum();
@@ -55,7 +43,7 @@ fn family_row(family: &FamilyOutcome) -> Vec<String> {
 }
 
 fn free(outcome: &Outcome) -> String {
-    outcome.parameters.values().filter(|p| p.role == "free").count().to_string()
+    outcome.free_count().to_string()
 }
 
 /// A table of constants per fit; one line per member for a family.
@@ -75,7 +63,7 @@ fn single(outcome: &Outcome) -> String {
     let residuals = &outcome.residuals;
     let heading = format!(
         "{name}: {} after {} iterations ({})\n{} points, rms {}, max {}{}; in f32 rms {}, max {}\n",
-        status(outcome.status),
+        outcome.status.words(),
         outcome.iterations,
         outcome.solver,
         residuals.count,
@@ -125,7 +113,7 @@ fn members(family: &FamilyOutcome) -> String {
     header.extend(["rms (f32)", "max (f32)"]);
     let row = |member: &Outcome| {
         let label = member.name.split_once('#').map_or(member.name.as_str(), |(_, label)| label);
-        let mut row = vec![label.to_owned(), status(member.status).to_owned()];
+        let mut row = vec![label.to_owned(), member.status.words().to_owned()];
         row.extend(names.iter().map(|name| {
             member.parameters.get(*name).map_or_else(String::new, |p| p.f32.to_string())
         }));

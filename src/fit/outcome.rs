@@ -32,6 +32,20 @@ pub enum Status {
     NonFinite,
 }
 
+impl Status {
+    /// In words, as tables and messages say it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::Stalled => "stalled",
+            Self::HitIterationLimit => "hit iteration limit",
+            Self::AtBound => "at bound",
+            Self::Singular => "singular",
+            Self::NonFinite => "non-finite",
+        }
+    }
+}
+
 /// One constant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParameterOutcome {
@@ -159,6 +173,13 @@ pub struct Outcome {
     pub starts: Vec<StartOutcome>,
     /// Where it comes from.
     pub provenance: Provenance,
+}
+
+impl Outcome {
+    /// Number of free constants.
+    pub fn free_count(&self) -> usize {
+        self.parameters.values().filter(|parameter| parameter.role == "free").count()
+    }
 }
 
 /// The results of a form fitted to every member of a family, in one file.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::subject::{Instance, Lever, Subject};
 use super::{Domain, Gate, GateError, Refits, committed};
 use crate::effects::registry::{self, Effect, Member, Reference};
-use crate::fit::outcome::{Outcome, Status};
+use crate::fit::outcome::Outcome;
 use crate::fit::sampling::Axis;
 use crate::fit::spec::Target as SpecTarget;
 use crate::fit::{FitResult, Spec};
@@ -89,7 +89,7 @@ impl Evidence {
         let bad: Vec<String> = outcomes
             .iter()
             .filter(|outcome| !committed::stands(outcome.status))
-            .map(|outcome| format!("{} is {}", outcome.name, status_name(outcome.status)))
+            .map(|outcome| format!("{} is {}", outcome.name, outcome.status.words()))
             .collect();
         Ok(if bad.is_empty() { Ok(outcomes) } else { Err(bad.join("; ")) })
     }
@@ -162,13 +162,6 @@ impl Evidence {
 /// The part of `effect/name#label` after the `#`; empty for a single fit.
 pub(super) fn label_of(outcome: &Outcome) -> &str {
     outcome.name.split_once('#').map_or("", |(_, label)| label)
-}
-
-fn status_name(status: Status) -> String {
-    serde_json::to_value(status)
-        .ok()
-        .and_then(|value| value.as_str().map(|name| name.replace('_', " ")))
-        .unwrap_or_default()
 }
 
 /// The free constants; the fixed ones where nothing is free; the output where there are none.

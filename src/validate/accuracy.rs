@@ -79,13 +79,15 @@ impl Target {
         Ok(Self { arguments, inputs, values: column(table, "value")?.to_vec() })
     }
 
-    /// The points of both, for targets of the same arguments.
-    pub fn joined(mut self, other: Self) -> Self {
-        for (column, more) in self.inputs.iter_mut().zip(other.inputs) {
-            column.extend(more);
-        }
-        self.values.extend(other.values);
-        self
+    /// The points of all, for targets of the same arguments; none of none.
+    pub fn all(targets: impl IntoIterator<Item = Self>) -> Option<Self> {
+        targets.into_iter().reduce(|mut all, more| {
+            for (column, added) in all.inputs.iter_mut().zip(more.inputs) {
+                column.extend(added);
+            }
+            all.values.extend(more.values);
+            all
+        })
     }
 
     /// Residuals of `values` against the target.

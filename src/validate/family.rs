@@ -88,9 +88,7 @@ pub fn over_family(
         residuals.iter().zip(members).max_by(|(a, _), (b, _)| a.max_abs.total_cmp(&b.max_abs));
     FormOverFamily {
         fit: fit.to_owned(),
-        free: outcomes.first().map_or(0, |outcome| {
-            outcome.parameters.values().filter(|parameter| parameter.role == "free").count()
-        }),
+        free: outcomes.first().map_or(0, |outcome| outcome.free_count()),
         rms: if count == 0 { f64::NAN } else { (sum / count as f64).sqrt() },
         max_abs: worst.map_or(f64::NAN, |(residuals, _)| residuals.max_abs),
         max_member: worst.map(|(_, member)| member.label.clone()).unwrap_or_default(),

@@ -8,6 +8,7 @@ pub mod family;
 pub mod laws;
 pub mod measured;
 pub mod parity;
+mod regions;
 pub mod sampling;
 pub mod study;
 

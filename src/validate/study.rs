@@ -4,17 +4,17 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::effects::registry::{self, Effect, Finding, FittedConstants, Member, Reference};
+use crate::effects::registry::{self, Effect, Finding, FittedConstants, Member};
 use crate::fit::outcome::{FamilyOutcome, Outcome};
 use crate::form::Form;
 use crate::gpu::Device;
-use crate::table::Table;
 use crate::validate::ValidateError;
 use crate::validate::accuracy::{Accuracy, Shipped, Target, accuracy, residuals_f32};
 use crate::validate::family::{FormOverFamily, GroupSpread, over_family, spreads};
 use crate::validate::laws::{LawVerdict, judge};
 use crate::validate::measured::Measured;
 use crate::validate::parity::{Parity, parity};
+use crate::validate::regions::{Atlas, Grounds};
 
 /// A fit to a reference, judged.
 #[derive(Debug, Clone, Serialize)]
@@ -121,11 +121,12 @@ pub fn study(
         laws: Vec::new(),
         findings: (effect.findings)(&constants(singles)),
     };
+    let mut atlas = Atlas::new(effect);
     for outcome in singles {
         let shipped = Shipped::of(outcome, root)?;
         found.laws.extend(judge(effect, &outcome.form, &shipped));
         if let Some((_, reference)) = registry::reference(&outcome.target) {
-            found.fits.push(fit_study(effect, outcome, &shipped, reference, device)?);
+            found.fits.push(fit_study(outcome, &shipped, atlas.of(reference)?, device)?);
         }
     }
     for (family, members) in effect.families.iter().zip(members) {
@@ -155,33 +156,19 @@ fn constants(singles: &[Outcome]) -> FittedConstants {
 }
 
 fn fit_study(
-    effect: &Effect,
     outcome: &Outcome,
     shipped: &Shipped,
-    reference: &Reference,
+    grounds: &Grounds,
     device: &Measured<Device>,
 ) -> Result<FitStudy, ValidateError> {
-    let mut regions = Vec::new();
-    let mut everywhere: Option<Target> = None;
-    for region in effect.regions {
-        let points = rounded((region.points)());
-        if !has_arguments(&points, reference) {
-            continue;
-        }
-        let target = Target::of_reference(reference, &points)?;
-        regions.push((region.name.to_owned(), accuracy(shipped, &target, device)?));
-        everywhere = Some(match everywhere {
-            Some(all) => all.joined(target),
-            None => target,
-        });
-    }
-    let hard = rounded((effect.hard_cases)());
-    let hard_cases = if has_arguments(&hard, reference) {
-        Some(accuracy(shipped, &Target::of_reference(reference, &hard)?, device)?)
-    } else {
-        None
-    };
-    let parity = match (device, everywhere) {
+    let judged = |target: &Target| accuracy(shipped, target, device);
+    let regions = grounds
+        .regions
+        .iter()
+        .map(|(name, target)| Ok(((*name).to_owned(), judged(target)?)))
+        .collect::<Result<Vec<_>, ValidateError>>()?;
+    let hard_cases = grounds.hard_cases.as_ref().map(judged).transpose()?;
+    let parity = match (device, grounds.everywhere()) {
         (Measured::Value(device), Some(target)) => {
             Measured::Value(parity(shipped, &target, device)?)
         }
@@ -191,19 +178,6 @@ fn fit_study(
         (Measured::NotMeasured(reason), _) => Measured::NotMeasured(reason.clone()),
     };
     Ok(FitStudy { outcome: outcome.clone(), regions, hard_cases, parity })
-}
-
-pub(super) fn has_arguments(points: &Table, reference: &Reference) -> bool {
-    points.rows() > 0
-        && reference.arguments.iter().all(|argument| points.column(argument.name).is_some())
-}
-
-/// The table with every number rounded to f32, so that all precisions see the same points.
-pub(super) fn rounded(mut table: Table) -> Table {
-    for value in table.columns.iter_mut().flat_map(|column| &mut column.values) {
-        *value = f64::from(*value as f32);
-    }
-    table
 }
 
 fn judge_family(

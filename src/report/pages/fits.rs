@@ -79,7 +79,7 @@ pub(super) fn fitted_section(evidence: &Evidence<'_>) -> Section {
                 Cell::text(outcome.loss.clone()),
                 status(outcome),
                 Cell::text(outcome.solver.split(" (").next().unwrap_or_default()),
-                count(free(outcome)),
+                count(outcome.free_count()),
                 Cell::number(outcome.residuals_f32.rms, 4),
                 Cell::number(outcome.residuals_f32.max_abs, 4),
                 outcome.equioscillations.map_or_else(|| Cell::text("–"), count),
@@ -109,28 +109,13 @@ pub(super) fn fitted_section(evidence: &Evidence<'_>) -> Section {
     section
 }
 
-fn free(outcome: &Outcome) -> usize {
-    outcome.parameters.values().filter(|parameter| parameter.role == "free").count()
-}
-
 fn status(outcome: &Outcome) -> Cell {
     let verdict = match outcome.status {
         Status::Converged => Verdict::Pass,
         Status::Stalled | Status::AtBound => Verdict::Warn,
         Status::HitIterationLimit | Status::Singular | Status::NonFinite => Verdict::Fail,
     };
-    Cell::verdict_as(verdict, status_word(outcome.status))
-}
-
-fn status_word(status: Status) -> &'static str {
-    match status {
-        Status::Converged => "converged",
-        Status::Stalled => "stalled",
-        Status::HitIterationLimit => "hit iteration limit",
-        Status::AtBound => "at bound",
-        Status::Singular => "singular",
-        Status::NonFinite => "not finite",
-    }
+    Cell::verdict_as(verdict, outcome.status.words())
 }
 
 fn constants(evidence: &Evidence<'_>) -> Table {
