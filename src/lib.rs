@@ -15,6 +15,7 @@ pub mod gpu;
 pub mod effects;
 pub mod fit;
 pub mod validate;
+pub mod render;
 pub mod report;
 pub mod gate;
 pub mod cli;

@@ -65,14 +65,28 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
 
     let mut jobs = Vec::new();
     let files = specs::find(&project.fits())?;
+    let mut sources = Vec::new();
     for file in &files {
-        if state.fits.get(&file.name) != Some(&fingerprints.of_fit(file)) {
-            jobs.push(Job { spec: Spec::read(&file.path)?, result: file.result() });
+        let spec = Spec::read(&file.path)?;
+        if state.fits.get(&file.name) != Some(&fingerprints.of_fit(file, &spec, project)) {
+            jobs.push(Job { spec: spec.clone(), result: file.result() });
+        }
+        sources.push((file, spec));
+    }
+    // A fit whose source is fitted again is fitted again too.
+    let again: Vec<String> = jobs.iter().map(|job| job.spec.name.clone()).collect();
+    for (file, spec) in &sources {
+        let stale = spec.constants.iter().any(|name| again.contains(name));
+        if stale && !again.contains(&spec.name) {
+            jobs.push(Job { spec: spec.clone(), result: file.result() });
         }
     }
     let fitted = fit::fit(&jobs, project.root(), context)?;
     context.output.note(&format!("fit: {} of {} specs", jobs.len(), files.len()));
-    state.fits = files.iter().map(|file| (file.name.clone(), fingerprints.of_fit(file))).collect();
+    state.fits = sources
+        .iter()
+        .map(|(file, spec)| (file.name.clone(), fingerprints.of_fit(file, spec, project)))
+        .collect();
     let unchanged = jobs.is_empty()
         && state.report == fingerprints.of_report(&adapter, &state.fits, project)?;
     if unchanged {

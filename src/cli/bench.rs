@@ -1,5 +1,7 @@
 //! `bench`: what forms and references cost, beside their error.
 
+use std::collections::BTreeSet;
+
 use clap::Args;
 use serde::Serialize;
 
@@ -7,6 +9,7 @@ use super::Ending;
 use super::context::Context;
 use super::output::{significant, table};
 use super::studies::{self, Results, Studied};
+use crate::effects::registry::Yardstick;
 use crate::validate::cost::{Cost, Costs};
 use crate::validate::measured::Measured;
 
@@ -31,8 +34,8 @@ pub(super) struct Arguments {
 #[derive(Debug, Serialize)]
 struct Line {
     fit: String,
-    /// Largest error in f32, by region (or over all members of a family).
-    max_abs: Vec<(String, f64)>,
+    /// Error in f32 by which forms are compared, by region (or over all members of a family).
+    error: Vec<(String, f64)>,
     frontier: bool,
     #[serde(flatten)]
     cost: Cost,
@@ -65,17 +68,18 @@ fn bench(studied: &Studied) -> Bench {
         .iter()
         .map(|cost| Line {
             fit: cost.name.clone(),
-            max_abs: errors(studied, &cost.name),
+            error: errors(studied, &cost.name),
             frontier: false,
             cost: cost.clone(),
         })
         .collect();
     forms.sort_by(|a, b| a.cost.nanoseconds().total_cmp(&b.cost.nanoseconds()));
-    // Fits to references and fits to families answer different questions: a frontier each.
-    for single in [true, false] {
+    // Fits to different references answer different questions: a frontier each.
+    let baselines: BTreeSet<String> = forms.iter().map(|line| line.cost.baseline.clone()).collect();
+    for baseline in &baselines {
         let mut best = f64::INFINITY;
-        for line in forms.iter_mut().filter(|line| is_single(studied, &line.fit) == single) {
-            let worst = line.max_abs.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+        for line in forms.iter_mut().filter(|line| line.cost.baseline == *baseline) {
+            let worst = line.error.iter().map(|(_, error)| *error).fold(0.0, f64::max);
             line.frontier = worst < best;
             best = best.min(worst);
         }
@@ -83,14 +87,14 @@ fn bench(studied: &Studied) -> Bench {
     Bench { effect: studied.effect.name.to_owned(), costs: studied.costs.clone(), forms }
 }
 
-fn is_single(studied: &Studied, fit: &str) -> bool {
-    studied.study.fits.iter().any(|study| study.outcome.name == fit)
-}
-
 fn errors(studied: &Studied, fit: &str) -> Vec<(String, f64)> {
     if let Some(study) = studied.study.fits.iter().find(|study| study.outcome.name == fit) {
         let region = |(name, accuracy): &(String, crate::validate::accuracy::Accuracy)| {
-            (name.clone(), accuracy.f32.max_abs)
+            let kind = match accuracy.yardstick {
+                Yardstick::MaxAbs => name.clone(),
+                other => format!("{name}, {}", other.words()),
+            };
+            (kind, accuracy.headline())
         };
         return study.regions.iter().map(region).collect();
     }
@@ -112,7 +116,7 @@ fn text(bench: &Bench) -> String {
         &[
             "fit",
             "frontier",
-            "max |error|, f32",
+            "error, f32",
             "device ns",
             "ratio",
             "quartiles of the ratio",
@@ -126,13 +130,16 @@ fn text(bench: &Bench) -> String {
         &["reference", "f64 ns"],
         references.iter().map(|r| vec![r.name.clone(), significant(r.ns, 3)]).collect(),
     ));
-    text.push_str(&asked(bench));
+    let mut baselines: Vec<&str> =
+        bench.costs.forms.iter().map(|cost| cost.baseline.as_str()).collect();
+    baselines.dedup();
+    baselines.iter().for_each(|baseline| text.push_str(&asked(bench, baseline)));
     text
 }
 
 fn row(line: &Line) -> Vec<String> {
     let errors: Vec<String> = line
-        .max_abs
+        .error
         .iter()
         .map(|(region, error)| format!("{} ({region})", significant(*error, 3)))
         .collect();
@@ -160,15 +167,17 @@ fn row(line: &Line) -> Vec<String> {
 
 /// The two questions a renderer asks of the baseline: what is as cheap and better, what is as good
 /// and cheaper.
-fn asked(bench: &Bench) -> String {
-    let Some(baseline) = bench.forms.iter().find(|line| line.fit == bench.costs.baseline) else {
+fn asked(bench: &Bench, baseline: &str) -> String {
+    let Some(baseline) = bench.forms.iter().find(|line| line.fit == baseline) else {
         return String::new();
     };
-    let worst = |line: &Line| line.max_abs.iter().map(|(_, e)| *e).fold(0.0, f64::max);
-    let comparable = |line: &&Line| line.max_abs.len() == baseline.max_abs.len();
+    let worst = |line: &Line| line.error.iter().map(|(_, e)| *e).fold(0.0, f64::max);
+    let comparable = |line: &&Line| {
+        line.cost.baseline == baseline.fit && line.error.len() == baseline.error.len()
+    };
     let ratio = |line: &Line| line.cost.nanoseconds() / baseline.cost.nanoseconds();
     let mut text =
-        format!("baseline {}: max |error| {}\n", baseline.fit, significant(worst(baseline), 3));
+        format!("baseline {}: error {}\n", baseline.fit, significant(worst(baseline), 3));
     let best = bench
         .forms
         .iter()

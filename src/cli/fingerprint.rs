@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 
 use super::project::Project;
 use super::specs::{SpecFile, entries};
+use crate::fit::Spec;
 
 /// SHA-256 of what every stage depends on: this program and the measured data.
 #[derive(Debug)]
@@ -28,11 +29,13 @@ impl Fingerprints {
         Ok(Self { base: hash.finalize().to_vec() })
     }
 
-    /// Of a spec, its data and its result; a result that is not there is part of it.
-    pub(super) fn of_fit(&self, file: &SpecFile) -> String {
+    /// Of a spec, its data, its result and the results that it takes constants from; a result that
+    /// is not there is part of it.
+    pub(super) fn of_fit(&self, file: &SpecFile, spec: &Spec, project: &Project) -> String {
         let mut hash = Sha256::new();
         hash.update(&self.base);
-        for path in [&file.path, &file.result()] {
+        let sources = spec.constants.iter().map(|name| project.fits().join(format!("{name}.json")));
+        for path in [file.path.clone(), file.result()].into_iter().chain(sources) {
             match std::fs::read(path) {
                 Ok(bytes) => add(&mut hash, &bytes),
                 Err(_) => hash.update(b"absent"),

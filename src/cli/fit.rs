@@ -162,9 +162,17 @@ pub(super) fn fit(jobs: &[Job], root: &Path, context: &Context) -> anyhow::Resul
         bar.inc(1);
         Ok(result)
     };
-    let results: Vec<anyhow::Result<FitResult>> = jobs.par_iter().map(run).collect();
+    // Fits that take constants from others come after them.
+    let mut results: Vec<Option<anyhow::Result<FitResult>>> = jobs.iter().map(|_| None).collect();
+    for dependent in [false, true] {
+        let stage = results.par_iter_mut().zip(jobs);
+        stage
+            .filter(|(_, job)| job.spec.constants.is_empty() != dependent)
+            .for_each(|(place, job)| *place = Some(run(job)));
+    }
+    let results = results.into_iter().flatten();
     bar.finish_and_clear();
-    let mut good = Vec::with_capacity(results.len());
+    let mut good = Vec::with_capacity(jobs.len());
     let mut fault = None;
     for result in results {
         match result {

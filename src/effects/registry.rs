@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use super::exhibit::{Exhibit, ExhibitError};
 use crate::form::{Form, FormError};
 use crate::table::Table;
 
@@ -77,6 +78,10 @@ pub struct FormEntry {
 }
 
 /// A named region in which forms are judged: for every argument of the reference, its values.
+///
+/// A form is judged in a region that has a column for every argument of its reference and for
+/// every input of its own; an input that the reference does not take (the area of a footprint, say)
+/// is a further column.
 #[derive(Debug, Clone, Copy)]
 pub struct Region {
     /// Short name, as in tables: `[-10, 10]`, `far`, `scene` …
@@ -85,6 +90,37 @@ pub struct Region {
     pub description: &'static str,
     /// The points, as a table with one column per argument of the reference; never fitted points.
     pub points: fn() -> Table,
+    /// Points of the same distribution on which a spec with `region = "name"` fits, others than
+    /// `points`; a column `weight`, where there is one, multiplies the squared residuals.
+    pub fitted: Option<fn() -> Table>,
+    /// An argument whose values part the points into groups: relative errors are then measured
+    /// group by group (over the offset for every half-extent, say) and the worst group counts.
+    pub by: Option<&'static str>,
+    /// The error by which forms are compared there.
+    pub yardstick: Yardstick,
+}
+
+/// The error by which forms are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Yardstick {
+    /// Largest magnitude.
+    MaxAbs,
+    /// Largest magnitude relative to the target.
+    MaxRelative,
+    /// Relative error in the L2 norm, the worst of the groups of [`Region::by`].
+    RelativeL2,
+}
+
+impl Yardstick {
+    /// In words, for the heading of a column.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::MaxAbs => "max |error|",
+            Self::MaxRelative => "max relative error",
+            Self::RelativeL2 => "relative L2 error",
+        }
+    }
 }
 
 /// Evaluates a form in f32: columns of inputs to values, all NaN if the columns are not the form's.
@@ -102,6 +138,8 @@ pub struct Law {
     pub violation: for<'a> fn(FormValues<'a>) -> f64,
     /// Largest violation accepted.
     pub tolerance: f64,
+    /// References to whose forms it applies; empty means all of the effect's.
+    pub references: &'static [&'static str],
     /// Names of the forms known not to satisfy it, each with the reason; shown, not hidden.
     pub known_violations: &'static [(&'static str, &'static str)],
 }
@@ -174,14 +212,17 @@ pub struct Effect {
     pub families: &'static [Family],
     /// Where they are judged.
     pub regions: &'static [Region],
-    /// Points that have broken implementations: a table with one column per reference argument.
-    pub hard_cases: fn() -> Table,
+    /// Points that have broken implementations, by what they have in common: each a table with one
+    /// column per argument of a reference.
+    pub hard_cases: &'static [Region],
     /// Properties of every form.
     pub laws: &'static [Law],
-    /// The fit that ratios of cost refer to: the form that renderers ship today.
-    pub baseline: &'static str,
+    /// The fits that ratios of cost refer to, one per reference: what renderers ship today.
+    pub baselines: &'static [&'static str],
     /// Claims of papers, checked.
     pub findings: fn(&FittedConstants) -> Vec<Finding>,
+    /// What it shows beyond its fits.
+    pub exhibits: fn(&FittedConstants) -> Result<Vec<Exhibit>, ExhibitError>,
 }
 
 impl Source {

@@ -16,7 +16,7 @@ use super::outcome::{
 use super::problem::Problem;
 use super::round_to_f32::{Shipped, round_to_f32};
 use super::solve::{Ending, Solution, solve_from, starts};
-use super::spec::{FormChoice, Spec, Target, Weighting};
+use super::spec::{FormChoice, ParameterChoice, Spec, Target, Weighting};
 use super::statistics::equioscillations;
 use super::target::{Noise, Points, read_table};
 use super::worth::Worth;
@@ -48,12 +48,16 @@ pub enum FitResult {
 pub fn run_spec(spec: &Spec, context: &Context) -> Result<FitResult, FitError> {
     spec.check()?;
     let form = load_form(spec, context)?;
+    let spec = &inherit(spec, &form, context)?;
     let fit = Fit::new(spec, &form)?;
     match &spec.target {
         Target::Reference(name) => {
-            let (_, reference) = registry::reference(name)
+            let (effect, reference) = registry::reference(name)
                 .ok_or_else(|| unknown("reference", name, |e| names(e.references, |r| r.name)))?;
-            let points = fit.points_of(reference, &spec.domain, "domain")?;
+            let points = match &spec.region {
+                Some(region) => fit.points_in(reference, effect, region)?,
+                None => fit.points_of(reference, &spec.domain, "domain")?,
+            };
             let mut outside = BTreeMap::new();
             for (region, domain) in &spec.outside {
                 let points = fit.points_of(reference, domain, &format!("outside.{region}"))?;
@@ -69,6 +73,32 @@ pub fn run_spec(spec: &Spec, context: &Context) -> Result<FitResult, FitError> {
         Target::Table { label, table, column, weight } => fit.table(label, table, column, weight),
         Target::Family(name) => fit.family(name, context),
     }
+}
+
+/// The spec with every constant fixed that it takes from the results of other fits.
+fn inherit(spec: &Spec, form: &Form, context: &Context) -> Result<Spec, FitError> {
+    let mut spec = spec.clone();
+    for name in &spec.constants.clone() {
+        let wrong = |what: String| spec.fault("constants", what);
+        let path = context.root.join("fits").join(format!("{name}.json"));
+        if name.contains("..") || !path.is_file() {
+            return Err(wrong(format!("`{name}` has no result; run `striae fit {name}` first")));
+        }
+        let FitResult::Single(outcome) = FitResult::read(&path)? else {
+            return Err(wrong(format!("`{name}` is a family of fits")));
+        };
+        let known = |parameter: &str| form.parameters().iter().any(|p| p.name == parameter);
+        if !outcome.parameters.keys().any(|parameter| known(parameter)) {
+            return Err(wrong(format!("`{name}` shares no constant with {}", form.origin())));
+        }
+        for (parameter, found) in outcome.parameters {
+            if known(&parameter) {
+                let fixed = ParameterChoice::Fixed(f64::from(found.f32));
+                spec.parameters.entry(parameter).or_insert(fixed);
+            }
+        }
+    }
+    Ok(spec)
 }
 
 /// Loads the form of a spec.
@@ -134,6 +164,27 @@ impl<'a> Fit<'a> {
         key: &str,
     ) -> Result<Points, FitError> {
         Points::of_reference(self.spec, reference, &self.inputs, domain, key)
+    }
+
+    /// The points that `region` of `effect` gives to fits.
+    fn points_in(
+        &self,
+        reference: &Reference,
+        effect: &Effect,
+        region: &str,
+    ) -> Result<Points, FitError> {
+        let fitted = effect.regions.iter().filter_map(|r| Some((r.name, r.fitted?)));
+        let found = fitted.clone().find(|(name, _)| *name == region);
+        let Some((name, points)) = found else {
+            let known: Vec<&str> = fitted.map(|(name, _)| name).collect();
+            let what = format!(
+                "{} has no region `{region}` with points to fit; it has {}",
+                effect.name,
+                if known.is_empty() { "none".to_owned() } else { known.join(", ") }
+            );
+            return Err(self.spec.fault("region", what));
+        };
+        Points::of_region(name, &points(), reference, &self.inputs, self.spec.loss)
     }
 
     fn single(

@@ -124,6 +124,10 @@ pub struct Spec {
     pub target: Target,
     /// Where, for a reference.
     pub domain: Domain,
+    /// A region of the effect whose fitted points take the place of the domain, for a reference.
+    pub region: Option<String>,
+    /// Fits whose committed f32 constants those parameters keep that are not named below.
+    pub constants: Vec<String>,
     /// Further regions in which residuals are reported, for a reference.
     pub outside: BTreeMap<String, Domain>,
     /// The loss.
@@ -159,6 +163,8 @@ impl Spec {
             output: None,
             target,
             domain: Domain::new(),
+            region: None,
+            constants: Vec::new(),
             outside: BTreeMap::new(),
             loss: Loss::LeastSquares,
             solver: SolverKind::Auto,

@@ -26,6 +26,9 @@ struct SpecFile {
     weight: Option<String>,
     #[serde(default)]
     domain: BTreeMap<String, AxisFile>,
+    region: Option<String>,
+    #[serde(default)]
+    constants: Vec<String>,
     #[serde(default)]
     loss: LossFile,
     #[serde(default)]
@@ -173,6 +176,8 @@ impl Spec {
         };
         spec.description = file.description;
         spec.output = file.output;
+        spec.region = file.region;
+        spec.constants = file.constants;
         spec.domain = axes(file.domain);
         spec.outside = file.outside.into_iter().map(|(name, d)| (name, axes(d))).collect();
         spec.solver = file.solver.kind;
@@ -186,14 +191,16 @@ impl Spec {
 
 fn target(spec: &Spec, file: &SpecFile) -> Result<Target, FitError> {
     let domain_key = (!file.domain.is_empty()).then_some("domain");
+    let region_key = file.region.is_some().then_some("region");
+    let domain_key = domain_key.or(region_key);
     let outside_key = (!file.outside.is_empty()).then_some("outside");
     let of_tables = [("column", file.column.is_some()), ("weight", file.weight.is_some())];
     let stray = of_tables.iter().find(|(_, there)| *there).map(|(key, _)| *key);
     match (&file.target, &file.family, &file.table) {
         (Some(reference), None, None) => match stray {
             Some(key) => Err(spec.fault(key, "only a table has columns".into())),
-            None if domain_key.is_none() => {
-                Err(spec.fault("domain", "a reference needs a domain".into()))
+            None if file.domain.is_empty() == file.region.is_none() => {
+                Err(spec.fault("domain", "a reference needs either a domain or a region".into()))
             }
             None => Ok(Target::Reference(reference.clone())),
         },

@@ -2,12 +2,17 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::error::FitError;
 use super::loss::Loss;
 use super::sampling::{MOST_POINTS, tensor_product};
 use super::spec::{Domain, Spec, Weighting};
 use crate::effects::registry::Reference;
-use crate::table::Table;
+use crate::table::{Column, Table};
+
+/// Column of a region's points that holds weights.
+const WEIGHT: &str = "weight";
 
 /// Whether the target carries noise that the residuals can be held against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,6 +108,41 @@ impl Points {
         };
         points.check(spec.loss)?;
         Ok(points)
+    }
+
+    /// `reference` at the points of a region, rounded to f32; a column `weight` holds weights.
+    ///
+    /// # Errors
+    /// [`FitError::Table`] for a column that is not there and for numbers that are not finite;
+    /// [`FitError::Domain`] where the reference has no value.
+    pub fn of_region(
+        region: &str,
+        points: &Table,
+        reference: &Reference,
+        inputs: &[String],
+        loss: Loss,
+    ) -> Result<Self, FitError> {
+        let mut table = points.clone();
+        for column in table.columns.iter_mut().filter(|column| column.name != WEIGHT) {
+            column.values.iter_mut().for_each(|value| *value = f64::from(*value as f32));
+        }
+        let columns = reference
+            .arguments
+            .iter()
+            .map(|argument| table.require(argument.name).map(|column| column.values.as_slice()))
+            .collect::<Result<Vec<_>, _>>()?;
+        let value = |row: usize| {
+            let point: Vec<f64> = columns.iter().map(|column| column[row]).collect();
+            (reference.evaluate)(&point)
+                .map_err(|source| FitError::Domain { reference: reference.name.to_owned(), source })
+        };
+        let values = (0..table.rows()).into_par_iter().map(value).collect::<Result<_, _>>()?;
+        table.columns.push(Column::new("target", "1", values));
+        let weight = match table.column(WEIGHT) {
+            Some(_) => Weighting::Column(WEIGHT.to_owned()),
+            None => Weighting::Equal,
+        };
+        Self::of_table(region, &table, inputs, "target", &weight, loss, Noise::Exact)
     }
 
     /// The rows of a table: the form's `inputs` and `column` are among its columns.

@@ -50,6 +50,9 @@ pub enum Metric {
     P99,
     /// Largest magnitude relative to the target, where the target is not 0.
     MaxRel,
+    /// Error relative to the target in the L2 norm; over a region whose points are grouped (over
+    /// the offset for every half-extent, say) the worst group.
+    RelL2,
     /// Largest distance, in units in the last place of f32, between a constant in the shipped file
     /// and the fitted one.
     Drift,
@@ -57,7 +60,7 @@ pub enum Metric {
 
 impl Metric {
     /// Every metric, in the order of the documentation.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::MaxAbs,
         Self::Rms,
         Self::Bias,
@@ -65,6 +68,7 @@ impl Metric {
         Self::P95,
         Self::P99,
         Self::MaxRel,
+        Self::RelL2,
         Self::Drift,
     ];
 
@@ -78,6 +82,7 @@ impl Metric {
             Self::P95 => "p95",
             Self::P99 => "p99",
             Self::MaxRel => "max_rel",
+            Self::RelL2 => "rel_l2",
             Self::Drift => "drift",
         }
     }

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 
 use super::subject::{Instance, Lever, Subject};
 use super::{Domain, Gate, GateError, Refits, committed};
-use crate::effects::registry::{self, Effect, Member, Reference};
+use crate::effects::registry::{self, Effect, Member, Reference, Yardstick};
 use crate::fit::outcome::Outcome;
 use crate::fit::sampling::Axis;
 use crate::fit::spec::Target as SpecTarget;
 use crate::fit::{FitResult, Spec};
 use crate::table::{Column, Table};
-use crate::validate::accuracy::{Shipped, Target};
+use crate::validate::accuracy::{Judged, Shipped, Target};
 use crate::validate::sampling::{self, Interval};
 
 /// A project as gates see it.
@@ -123,8 +123,8 @@ impl Evidence {
             SpecTarget::Reference(name) => {
                 let (effect, reference) = registry::reference(name)
                     .ok_or_else(|| gate.fault(format!("its target `{name}` is no reference")))?;
-                let points = reference_points(gate, spec, effect, reference)?;
-                Ok(Target::of_reference(reference, &points)?)
+                let (points, by) = reference_points(gate, spec, effect, reference)?;
+                Ok(Judged::new(reference, points, by, Yardstick::MaxAbs)?.target(&shipped.form)?)
             }
             SpecTarget::Family(name) => {
                 let label = label_of(outcome);
@@ -183,18 +183,19 @@ fn levers(outcome: &Outcome, shipped: &Shipped) -> Vec<Lever> {
     if levers.is_empty() { vec![Lever::Output] } else { levers }
 }
 
-/// Points of a gate on a reference.
+/// Points of a gate on a reference, and what parts them into groups.
 fn reference_points(
     gate: &Gate,
     spec: &Spec,
     effect: &Effect,
     reference: &Reference,
-) -> Result<Table, GateError> {
+) -> Result<(Table, Option<&'static str>), GateError> {
     let mut constants: Vec<(&str, f64)> = Vec::new();
-    let domain = match &gate.domain {
-        Some(Domain::Region(name)) => return region(gate, effect, name),
-        Some(Domain::Box(domain)) => domain.clone(),
-        None => {
+    let domain = match (&gate.domain, &spec.region) {
+        (Some(Domain::Region(name)), _) => return region(gate, effect, name),
+        (None, Some(name)) => return region(gate, effect, name),
+        (Some(Domain::Box(domain)), _) => domain.clone(),
+        (None, None) => {
             let interval = |(argument, axis): (&String, &Axis)| {
                 let points = axis.points();
                 let from = points.iter().copied().fold(f64::INFINITY, f64::min);
@@ -223,29 +224,39 @@ fn reference_points(
         };
         constants.push((argument.name, *value));
     }
-    let mut points = sampling::points(&domain, Some(&(effect.hard_cases)()));
+    let hard_cases: Vec<Table> = effect.hard_cases.iter().map(|set| (set.points)()).collect();
+    let mut points = sampling::points(&domain, &hard_cases);
     let rows = points.rows();
     for (name, value) in constants {
         points.columns.push(Column::new(name, "1", vec![value; rows]));
     }
-    Ok(points)
+    Ok((points, None))
 }
 
 /// Points of a region that the effect names, as f32 numbers, so that every precision sees the same.
-fn region(gate: &Gate, effect: &Effect, name: &str) -> Result<Table, GateError> {
-    let region = effect.regions.iter().find(|region| region.name == name).ok_or_else(|| {
-        let known: Vec<&str> = effect.regions.iter().map(|region| region.name).collect();
-        gate.fault(format!(
-            "domain: {} has no region `{name}`; it has {}",
-            effect.name,
-            known.join(", ")
-        ))
-    })?;
+fn region(
+    gate: &Gate,
+    effect: &Effect,
+    name: &str,
+) -> Result<(Table, Option<&'static str>), GateError> {
+    let region = effect
+        .regions
+        .iter()
+        .chain(effect.hard_cases)
+        .find(|region| region.name == name)
+        .ok_or_else(|| {
+            let known: Vec<&str> = effect.regions.iter().map(|region| region.name).collect();
+            gate.fault(format!(
+                "domain: {} has no region `{name}`; it has {}",
+                effect.name,
+                known.join(", ")
+            ))
+        })?;
     let mut points = (region.points)();
     for value in points.columns.iter_mut().flat_map(|column| &mut column.values) {
         *value = f64::from(*value as f32);
     }
-    Ok(points)
+    Ok((points, region.by))
 }
 
 /// The rows of a table that lie in the gate's domain; all of them without one.

@@ -7,7 +7,10 @@ use super::{Metric, Precision, Reached};
 use crate::fit::outcome::Residuals;
 use crate::gpu::Device;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Shipped, Target, residuals_device, residuals_f32, residuals_f64};
+use crate::validate::accuracy::{
+    Arithmetic, RelativeL2, Shipped, Target, relative_l2, residuals_device, residuals_f32,
+    residuals_f64,
+};
 
 /// The fits that one gate judges together: one, or the members of a family.
 #[derive(Debug)]
@@ -94,6 +97,16 @@ pub(super) fn reached(
     precision: Precision,
     device: Option<&Device>,
 ) -> Result<Reached, ValidateError> {
+    if metric == Metric::RelL2 {
+        let arithmetic = match (precision, device) {
+            (Precision::F64, _) => Arithmetic::F64,
+            (Precision::Device, Some(device)) => Arithmetic::Device(device),
+            (Precision::F32, _) | (Precision::Device, None) => Arithmetic::F32,
+        };
+        let RelativeL2 { value, at } = relative_l2(shipped, target, arithmetic)?;
+        let (of, count) = (label.map(str::to_owned), target.values.len());
+        return Ok(Reached { value, at, of, count });
+    }
     let residuals = match (precision, device) {
         (Precision::F64, _) => residuals_f64(shipped, target)?,
         (Precision::Device, Some(device)) => residuals_device(shipped, target, device)?,
@@ -121,8 +134,8 @@ fn figure(metric: Metric, residuals: &Residuals) -> (f64, BTreeMap<String, f64>)
         Metric::P50 => (residuals.p50, nowhere),
         Metric::P95 => (residuals.p95, nowhere),
         Metric::P99 => (residuals.p99, nowhere),
-        // A drift is no residual: it never comes here, and would fail if it did.
-        Metric::Drift => (f64::NAN, nowhere),
+        // Neither comes here, and either would fail if it did.
+        Metric::RelL2 | Metric::Drift => (f64::NAN, nowhere),
     }
 }
 

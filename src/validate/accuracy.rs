@@ -1,8 +1,13 @@
 //! Error of a form with given constants against its target, in f64, f32 and on the device.
 
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::registry::Reference;
+#[cfg(doc)]
+use crate::effects::registry::Region;
+use crate::effects::registry::{Reference, Yardstick};
 use crate::fit::outcome::Residuals;
 use crate::form::Form;
 use crate::gpu::Device;
@@ -32,38 +37,89 @@ pub struct Target {
     pub inputs: Vec<Vec<f64>>,
     /// The true values.
     pub values: Vec<f64>,
+    /// What the points are grouped by, and its value at each; see [`Region::by`].
+    pub groups: Option<(&'static str, Vec<f64>)>,
+    /// The error by which forms are compared here.
+    pub yardstick: Yardstick,
 }
 
-impl Target {
-    /// The values of `reference` at `points`, for the arguments that `form` takes.
+/// Points of a reference with its values, for forms that may take more than its arguments.
+#[derive(Debug, Clone)]
+pub struct Judged {
+    /// Columns for every argument of the reference, and further ones.
+    pub points: Table,
+    /// The true values.
+    pub values: Vec<f64>,
+    /// The argument that parts the points into groups.
+    pub by: Option<&'static str>,
+    /// The error by which forms are compared here.
+    pub yardstick: Yardstick,
+}
+
+impl Judged {
+    /// The values of `reference` at `points`.
     ///
     /// # Errors
     /// If a column is missing, or the reference has no value at some row.
-    pub fn of_reference(reference: &Reference, points: &Table) -> Result<Self, ValidateError> {
+    pub fn new(
+        reference: &Reference,
+        points: Table,
+        by: Option<&'static str>,
+        yardstick: Yardstick,
+    ) -> Result<Self, ValidateError> {
         let columns = reference
             .arguments
             .iter()
-            .map(|argument| column(points, argument.name))
+            .map(|argument| column(&points, argument.name))
             .collect::<Result<Vec<_>, _>>()?;
-        let values = (0..points.rows())
-            .map(|row| {
-                let point: Vec<f64> = columns.iter().map(|column| column[row]).collect();
-                (reference.evaluate)(&point).map_err(|source| ValidateError::Reference {
-                    reference: reference.name,
-                    row: row + 1,
-                    source,
-                })
+        let value = |row: usize| {
+            let point: Vec<f64> = columns.iter().map(|column| column[row]).collect();
+            (reference.evaluate)(&point).map_err(|source| ValidateError::Reference {
+                reference: reference.name,
+                row: row + 1,
+                source,
             })
+        };
+        let values =
+            (0..points.rows()).into_par_iter().map(value).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { points, values, by, yardstick })
+    }
+
+    /// Whether the points have every input of `form`.
+    pub fn serves(&self, form: &Form) -> bool {
+        form.input_columns().iter().all(|input| self.points.column(input).is_some())
+    }
+
+    /// The points as `form` takes them.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn target(&self, form: &Form) -> Result<Target, ValidateError> {
+        let arguments = form.input_columns();
+        let inputs = arguments
+            .iter()
+            .map(|argument| column(&self.points, argument).map(<[f64]>::to_vec))
             .collect::<Result<Vec<_>, _>>()?;
-        Ok(Self {
-            arguments: reference
-                .arguments
-                .iter()
-                .map(|argument| argument.name.to_owned())
-                .collect(),
-            inputs: columns.into_iter().map(<[f64]>::to_vec).collect(),
-            values,
-        })
+        let groups = match self.by {
+            None => None,
+            Some(by) => Some((by, column(&self.points, by)?.to_vec())),
+        };
+        let (values, yardstick) = (self.values.clone(), self.yardstick);
+        Ok(Target { arguments, inputs, values, groups, yardstick })
+    }
+}
+
+impl Target {
+    /// The values of `reference` at `points`, which have a column for every input of `form` too.
+    ///
+    /// # Errors
+    /// If a column is missing, or the reference has no value at some row.
+    pub fn of_reference(
+        reference: &Reference,
+        points: Table,
+        form: &Form,
+    ) -> Result<Self, ValidateError> {
+        Judged::new(reference, points, None, Yardstick::MaxAbs)?.target(form)
     }
 
     /// The `value` column of a family member's table, at the arguments that `form` takes.
@@ -76,18 +132,44 @@ impl Target {
             .iter()
             .map(|argument| column(table, argument).map(<[f64]>::to_vec))
             .collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { arguments, inputs, values: column(table, "value")?.to_vec() })
+        let values = column(table, "value")?.to_vec();
+        Ok(Self { arguments, inputs, values, groups: None, yardstick: Yardstick::MaxAbs })
     }
 
-    /// The points of all, for targets of the same arguments; none of none.
+    /// The points of all in one group, for targets of the same arguments; none of none.
     pub fn all(targets: impl IntoIterator<Item = Self>) -> Option<Self> {
         targets.into_iter().reduce(|mut all, more| {
+            all.groups = None;
             for (column, added) in all.inputs.iter_mut().zip(more.inputs) {
                 column.extend(added);
             }
             all.values.extend(more.values);
             all
         })
+    }
+
+    /// Error of `values` relative to the target in the L2 norm over each group of points, or over
+    /// all of them without groups: the worst, and its group. Groups whose target is 0 everywhere
+    /// are left out.
+    pub fn relative_l2(&self, values: &[f64]) -> RelativeL2 {
+        let mut sums: BTreeMap<u64, (f64, f64, f64)> = BTreeMap::new();
+        for (at, (value, target)) in values.iter().zip(&self.values).enumerate() {
+            let group = self.groups.as_ref().map_or(0.0, |(_, column)| column[at]);
+            let sum = sums.entry(group.to_bits()).or_insert((group, 0.0, 0.0));
+            sum.1 += (value - target) * (value - target);
+            sum.2 += target * target;
+        }
+        let (at, value) = sums
+            .values()
+            .filter(|(_, _, norm)| *norm > 0.0)
+            .map(|(group, error, norm)| (*group, (error / norm).sqrt()))
+            .reduce(|worst, other| {
+                let worse = other.1.is_nan() || other.1 > worst.1;
+                if worse && !worst.1.is_nan() { other } else { worst }
+            })
+            .unwrap_or((f64::NAN, f64::NAN));
+        let at = self.groups.as_ref().map(|(by, _)| ((*by).to_owned(), at));
+        RelativeL2 { value, at: at.into_iter().collect() }
     }
 
     /// Residuals of `values` against the target.
@@ -106,6 +188,15 @@ fn column<'t>(table: &'t Table, name: &str) -> Result<&'t [f64], ValidateError> 
     })
 }
 
+/// An error relative to the target in the L2 norm: the worst over groups of points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RelativeL2 {
+    /// √(Σ error² / Σ target²), 1; NaN if the target is 0 everywhere.
+    pub value: f64,
+    /// The worst group; empty if the points are one group.
+    pub at: BTreeMap<String, f64>,
+}
+
 /// Residuals in each precision, over the same points.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
@@ -115,6 +206,21 @@ pub struct Accuracy {
     pub f32: Residuals,
     /// Shipped constants on the device.
     pub device: Measured<Residuals>,
+    /// Relative L2 error in f32: the worst group of points.
+    pub relative_l2: RelativeL2,
+    /// The error by which forms are compared here.
+    pub yardstick: Yardstick,
+}
+
+impl Accuracy {
+    /// The error in f32 by which forms are compared; NaN where it has no value.
+    pub fn headline(&self) -> f64 {
+        match self.yardstick {
+            Yardstick::MaxAbs => self.f32.max_abs,
+            Yardstick::MaxRelative => self.f32.max_rel.unwrap_or(f64::NAN),
+            Yardstick::RelativeL2 => self.relative_l2.value,
+        }
+    }
 }
 
 /// Measures `shipped` against `target` in f64, in f32 and, where there is one, on the device.
@@ -133,10 +239,13 @@ pub fn accuracy(
             Measured::Value(target.residuals(&widened(&values)))
         }
     };
+    let values = widened(&values_f32(shipped, target)?);
     Ok(Accuracy {
         f64: residuals_f64(shipped, target)?,
-        f32: residuals_f32(shipped, target)?,
+        f32: target.residuals(&values),
         device,
+        relative_l2: target.relative_l2(&values),
+        yardstick: target.yardstick,
     })
 }
 
@@ -168,6 +277,37 @@ pub fn residuals_device(
     device: &Device,
 ) -> Result<Residuals, ValidateError> {
     Ok(target.residuals(&widened(&device_values(shipped, target, device)?)))
+}
+
+/// Relative L2 error in one arithmetic: the worst group of points.
+///
+/// # Errors
+/// If the form cannot be evaluated, or the device fails.
+pub fn relative_l2(
+    shipped: &Shipped,
+    target: &Target,
+    precision: Arithmetic<'_>,
+) -> Result<RelativeL2, ValidateError> {
+    let values = match precision {
+        Arithmetic::F64 => {
+            let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
+            shipped.form.eval_f64(&shipped.constants, &inputs)?.swap_remove(0)
+        }
+        Arithmetic::F32 => widened(&values_f32(shipped, target)?),
+        Arithmetic::Device(device) => widened(&device_values(shipped, target, device)?),
+    };
+    Ok(target.relative_l2(&values))
+}
+
+/// In which arithmetic a form is evaluated.
+#[derive(Debug, Clone, Copy)]
+pub enum Arithmetic<'d> {
+    /// f64 constants in f64.
+    F64,
+    /// Shipped constants in f32 with correctly rounded elementary functions.
+    F32,
+    /// Shipped constants on a device.
+    Device(&'d Device),
 }
 
 /// Values in f32 at the target's points.

@@ -1,5 +1,6 @@
 //! What is timed: every fit of an effect, over the points on which it is judged.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::effects::registry::{self, Effect, Member};
@@ -9,10 +10,13 @@ use crate::validate::accuracy::{Shipped, Target};
 use crate::validate::cost::{Candidate, TimedReference};
 use crate::validate::regions::{Atlas, Grounds};
 
+/// Key of the group of fits to families: no reference is called so.
+const FAMILIES: &str = "";
 /// Members whose points are joined to time a form of a family.
 const MEMBERS: usize = 16;
 
-/// The fits of `effect` to be timed, the effect's baseline first.
+/// The fits of `effect` to be timed, in groups that are compared: those to one reference, and those
+/// to families. The baseline of a group comes first.
 ///
 /// A fit to a family stands for all of its members with the constants of the first. `members` holds
 /// the held-out members of each family, in the order of `effect.families`.
@@ -25,13 +29,14 @@ pub fn candidates(
     families: &[FamilyOutcome],
     members: &[Vec<Member>],
     root: &Path,
-) -> Result<Vec<Candidate>, ValidateError> {
-    let mut found = Vec::new();
+) -> Result<Vec<Vec<Candidate>>, ValidateError> {
+    let mut groups: BTreeMap<&str, Vec<Candidate>> = BTreeMap::new();
     let mut atlas = Atlas::new(effect);
     for outcome in singles {
         let Some((_, reference)) = registry::reference(&outcome.target) else { continue };
-        if let Some(target) = atlas.of(reference)?.everywhere() {
-            found.push(Candidate { shipped: Shipped::of(outcome, root)?, target });
+        let shipped = Shipped::of(outcome, root)?;
+        if let Some(target) = atlas.of(reference)?.everywhere(&shipped.form)? {
+            groups.entry(reference.name).or_default().push(Candidate { shipped, target });
         }
     }
     for outcome in families {
@@ -49,13 +54,19 @@ pub fn candidates(
             .map(|member| Target::of_table(&member.table, &shipped.form))
             .collect::<Result<Vec<_>, _>>()?;
         if let Some(target) = Target::all(targets) {
-            found.push(Candidate { shipped, target });
+            groups.entry(FAMILIES).or_default().push(Candidate { shipped, target });
         }
     }
-    if let Some(at) = found.iter().position(|candidate| candidate.shipped.name == effect.baseline) {
-        found.swap(0, at);
+    let order = effect.references.iter().map(|reference| reference.name).chain([FAMILIES]);
+    let mut ordered: Vec<Vec<Candidate>> = order.filter_map(|name| groups.remove(name)).collect();
+    for group in &mut ordered {
+        let baseline =
+            |candidate: &Candidate| effect.baselines.contains(&candidate.shipped.name.as_str());
+        if let Some(at) = group.iter().position(baseline) {
+            group.swap(0, at);
+        }
     }
-    Ok(found)
+    Ok(ordered)
 }
 
 /// The references of `effect` with the points over which they are timed.
@@ -66,8 +77,9 @@ pub fn timed_references(effect: &Effect) -> Result<Vec<TimedReference>, Validate
     let mut found = Vec::new();
     for reference in effect.references {
         let grounds = Grounds::of(effect, reference)?;
-        if let Some(target) = grounds.everywhere().or(grounds.hard_cases) {
-            found.push(TimedReference { reference, inputs: target.inputs });
+        let inputs = grounds.arguments(reference);
+        if inputs.first().is_some_and(|column| !column.is_empty()) {
+            found.push(TimedReference { reference, inputs });
         }
     }
     Ok(found)

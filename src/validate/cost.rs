@@ -21,6 +21,8 @@ use crate::validate::measured::Measured;
 pub struct Cost {
     /// The fit.
     pub name: String,
+    /// The fit that its ratio refers to.
+    pub baseline: String,
     /// Operations in the text.
     pub operations: OpCount,
     /// Nanoseconds per evaluation on f64 lanes, one core.
@@ -54,8 +56,6 @@ pub struct Costs {
     pub effect: String,
     /// The device, or why there is none.
     pub adapter: Measured<AdapterDescription>,
-    /// The fit that ratios refer to: the published form.
-    pub baseline: String,
     /// Forms, in the order given.
     pub forms: Vec<Cost>,
     /// References.
@@ -85,7 +85,8 @@ const ROUNDS: usize = 9;
 /// Points per timed pass on the CPU.
 const POINTS: usize = 1 << 14;
 
-/// Times every candidate and reference. The first candidate is the baseline of the ratios.
+/// Times every candidate and reference. The first candidate of each group is the baseline of the
+/// ratios in it.
 ///
 /// Points are shuffled, so that a branch on the argument diverges as it would on a screen.
 ///
@@ -93,10 +94,30 @@ const POINTS: usize = 1 << 14;
 /// If a form cannot be evaluated or the device fails.
 pub fn costs(
     effect: &str,
-    candidates: &[Candidate],
+    groups: &[Vec<Candidate>],
     references: &[TimedReference],
     device: &Measured<Device>,
 ) -> Result<Costs, ValidateError> {
+    let mut forms = Vec::new();
+    for group in groups {
+        forms.extend(group_costs(group, device)?);
+    }
+    Ok(Costs {
+        effect: effect.to_owned(),
+        adapter: device.map(|device| device.description().clone()),
+        forms,
+        references: references
+            .iter()
+            .map(|timed| reference_cost(timed.reference, &shuffled(&timed.inputs)))
+            .collect(),
+    })
+}
+
+/// Times the candidates of one group against each other.
+fn group_costs(
+    candidates: &[Candidate],
+    device: &Measured<Device>,
+) -> Result<Vec<Cost>, ValidateError> {
     let inputs: Vec<Vec<Vec<f64>>> =
         candidates.iter().map(|candidate| shuffled(&candidate.target.inputs)).collect();
     let narrow: Vec<Vec<Vec<f32>>> = inputs
@@ -116,27 +137,19 @@ pub fn costs(
         }
     }
     let timings = device_timings(candidates, &narrow, device)?;
-    let forms = candidates
+    let baseline = candidates.first().map(|c| c.shipped.name.clone()).unwrap_or_default();
+    Ok(candidates
         .iter()
         .enumerate()
         .map(|(at, candidate)| Cost {
             name: candidate.shipped.name.clone(),
+            baseline: baseline.clone(),
             operations: candidate.shipped.form.op_count(),
             lanes_f64_ns: percentile(&wide_ns[at], 50.0),
             lanes_f32_ns: percentile(&narrow_ns[at], 50.0),
             device: timings[at].clone(),
         })
-        .collect();
-    Ok(Costs {
-        effect: effect.to_owned(),
-        adapter: device.map(|device| device.description().clone()),
-        baseline: candidates.first().map(|c| c.shipped.name.clone()).unwrap_or_default(),
-        forms,
-        references: references
-            .iter()
-            .map(|timed| reference_cost(timed.reference, &shuffled(&timed.inputs)))
-            .collect(),
-    })
+        .collect())
 }
 
 /// Nanoseconds per point of one pass over [`POINTS`] points.

@@ -36,7 +36,7 @@ pub fn against_reference(
         }],
         origin: format!("points of {}", reference.name),
     };
-    error(shipped, &Target::of_reference(reference, &points)?)
+    error(shipped, &Target::of_reference(reference, points, &shipped.form)?)
 }
 
 /// Error of `shipped` over a family member's held-out table, along the first argument.

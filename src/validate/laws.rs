@@ -32,9 +32,13 @@ pub enum LawStanding {
     Violated,
 }
 
-/// Judges every law of `effect` for `shipped`, in f32. A form that cannot be evaluated violates.
+/// Judges the laws of `effect` that apply to `shipped`, in f32. A form that cannot be evaluated
+/// violates.
 pub fn judge(effect: &Effect, form_name: &str, shipped: &Shipped) -> Vec<LawVerdict> {
-    effect.laws.iter().map(|law| verdict(law, form_name, shipped)).collect()
+    let entry = effect.forms.iter().find(|form| form.name == form_name);
+    let reference = entry.map_or("", |form| form.reference);
+    let applies = |law: &&Law| law.references.is_empty() || law.references.contains(&reference);
+    effect.laws.iter().filter(applies).map(|law| verdict(law, form_name, shipped)).collect()
 }
 
 fn verdict(law: &Law, form_name: &str, shipped: &Shipped) -> LawVerdict {

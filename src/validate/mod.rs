@@ -12,6 +12,7 @@ mod regions;
 pub mod sampling;
 pub mod study;
 
+use crate::effects::exhibit::ExhibitError;
 use crate::effects::registry::DomainError;
 use crate::form::FormError;
 use crate::gpu::GpuError;
@@ -45,6 +46,9 @@ pub enum ValidateError {
         /// Those that there are.
         known: Vec<String>,
     },
+    /// What the effect shows beyond its fits could not be made.
+    #[error(transparent)]
+    Exhibit(#[from] ExhibitError),
     /// A form's file cannot be read.
     #[error("form `{name}` is not registered, and no readable file: {source}")]
     UnreadableForm {

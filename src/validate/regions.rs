@@ -3,18 +3,17 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
-use crate::effects::registry::{Effect, Reference};
+use crate::effects::registry::{Effect, Reference, Region};
+use crate::form::Form;
 use crate::table::Table;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::Target;
+use crate::validate::accuracy::{Judged, Target};
 
 /// The points of an effect that a reference takes, and its values there.
 #[derive(Debug, Clone)]
 pub(super) struct Grounds {
-    /// Region name and target, in the effect's order.
-    pub(super) regions: Vec<(&'static str, Target)>,
-    /// The hard cases, if they have the reference's arguments.
-    pub(super) hard_cases: Option<Target>,
+    regions: Vec<(&'static str, Judged)>,
+    hard_cases: Vec<(&'static str, Judged)>,
 }
 
 impl Grounds {
@@ -23,26 +22,69 @@ impl Grounds {
     /// # Errors
     /// If the reference has no value at a point.
     pub(super) fn of(effect: &Effect, reference: &Reference) -> Result<Self, ValidateError> {
-        let target = |points: Table| -> Result<Option<Target>, ValidateError> {
-            let points = rounded(points);
-            if !has_arguments(&points, reference) {
-                return Ok(None);
+        let judged = |regions: &'static [Region]| {
+            let mut found = Vec::new();
+            for region in regions {
+                let points = rounded((region.points)());
+                if has_arguments(&points, reference) {
+                    found.push((
+                        region.name,
+                        Judged::new(reference, points, region.by, region.yardstick)?,
+                    ));
+                }
             }
-            Target::of_reference(reference, &points).map(Some)
+            Ok::<_, ValidateError>(found)
         };
-        let mut regions = Vec::new();
-        for region in effect.regions {
-            if let Some(target) = target((region.points)())? {
-                regions.push((region.name, target));
-            }
-        }
-        Ok(Self { regions, hard_cases: target((effect.hard_cases)())? })
+        Ok(Self { regions: judged(effect.regions)?, hard_cases: judged(effect.hard_cases)? })
     }
 
-    /// All regions as one target; none if no region is the reference's.
-    pub(super) fn everywhere(&self) -> Option<Target> {
-        Target::all(self.regions.iter().map(|(_, target)| target.clone()))
+    /// The regions in which `form` can be judged, by name, in the effect's order.
+    ///
+    /// # Errors
+    /// If a table has columns of different lengths.
+    pub(super) fn regions(
+        &self,
+        form: &Form,
+    ) -> Result<Vec<(&'static str, Target)>, ValidateError> {
+        served(&self.regions, form)
     }
+
+    /// The sets of hard cases on which `form` can be judged, likewise.
+    ///
+    /// # Errors
+    /// If a table has columns of different lengths.
+    pub(super) fn hard_cases(
+        &self,
+        form: &Form,
+    ) -> Result<Vec<(&'static str, Target)>, ValidateError> {
+        served(&self.hard_cases, form)
+    }
+
+    /// All regions as one target; none if no region is the form's.
+    ///
+    /// # Errors
+    /// If a table has columns of different lengths.
+    pub(super) fn everywhere(&self, form: &Form) -> Result<Option<Target>, ValidateError> {
+        Ok(Target::all(self.regions(form)?.into_iter().map(|(_, target)| target)))
+    }
+
+    /// The arguments of `reference` over all regions, or over the hard cases where it has none.
+    pub(super) fn arguments(&self, reference: &Reference) -> Vec<Vec<f64>> {
+        let from = if self.regions.is_empty() { &self.hard_cases } else { &self.regions };
+        let column = |name: &str| {
+            let columns = from.iter().filter_map(|(_, judged)| judged.points.column(name));
+            columns.flat_map(|column| column.values.iter().copied()).collect()
+        };
+        reference.arguments.iter().map(|argument| column(argument.name)).collect()
+    }
+}
+
+fn served(
+    grounds: &[(&'static str, Judged)],
+    form: &Form,
+) -> Result<Vec<(&'static str, Target)>, ValidateError> {
+    let serving = grounds.iter().filter(|(_, judged)| judged.serves(form));
+    serving.map(|(name, judged)| Ok((*name, judged.target(form)?))).collect()
 }
 
 /// The grounds of one effect, each reference evaluated when it is first asked for.

@@ -86,7 +86,7 @@ const SEED: u64 = 0x005e_ed0f_9a7e;
 /// in f64 see the same point.
 ///
 /// The columns come in the order of `domain`; `hard_cases` needs a column of each name to add any.
-pub fn points(domain: &Domain, hard_cases: Option<&Table>) -> Table {
+pub fn points(domain: &Domain, hard_cases: &[Table]) -> Table {
     let dimensions = domain.intervals.len();
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); dimensions];
     let mut push = |point: &[f64]| {
@@ -125,7 +125,7 @@ pub fn points(domain: &Domain, hard_cases: Option<&Table>) -> Table {
             .collect();
         push(&point);
     }
-    for point in hard_cases.map(|table| rows_inside(table, domain)).unwrap_or_default() {
+    for point in hard_cases.iter().flat_map(|table| rows_inside(table, domain)) {
         push(&point);
     }
     Table {
@@ -200,7 +200,7 @@ mod tests {
     #[test]
     fn points_stay_inside_and_are_f32_numbers() {
         let domain = Domain::parse("x = 0.1:0.7").expect("well formed");
-        let table = points(&domain, None);
+        let table = points(&domain, &[]);
         assert!(table.rows() > CELLS);
         for value in &table.columns[0].values {
             assert!((0.1..=0.7).contains(value), "{value}");
@@ -220,8 +220,8 @@ mod tests {
             origin: String::new(),
         };
         let domain = Domain::parse("x = 0:1").expect("well formed");
-        let with = points(&domain, Some(&hard));
-        assert_eq!(with.rows(), points(&domain, None).rows() + 1);
+        let with = points(&domain, std::slice::from_ref(&hard));
+        assert_eq!(with.rows(), points(&domain, &[]).rows() + 1);
         assert_eq!(with.columns[0].values.last(), Some(&0.25));
     }
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use crate::effects::exhibit::Exhibit;
 use crate::effects::registry::{self, Effect, Finding, FittedConstants, Member};
 use crate::fit::outcome::{FamilyOutcome, Outcome};
 use crate::form::Form;
@@ -23,8 +24,8 @@ pub struct FitStudy {
     pub outcome: Outcome,
     /// Accuracy per region of the effect, by region name.
     pub regions: Vec<(String, Accuracy)>,
-    /// Accuracy on the effect's hard cases, where the reference takes the same arguments.
-    pub hard_cases: Option<Accuracy>,
+    /// Accuracy on the effect's hard cases, by the name of the set.
+    pub hard_cases: Vec<(String, Accuracy)>,
     /// Device against f32 lanes over all regions together.
     pub parity: Measured<Parity>,
 }
@@ -53,6 +54,8 @@ pub struct Study {
     pub laws: Vec<LawVerdict>,
     /// Claims of papers, checked.
     pub findings: Vec<Finding>,
+    /// What the effect shows beyond its fits.
+    pub exhibits: Vec<Exhibit>,
 }
 
 impl Shipped {
@@ -120,6 +123,7 @@ pub fn study(
         families: Vec::new(),
         laws: Vec::new(),
         findings: (effect.findings)(&constants(singles)),
+        exhibits: (effect.exhibits)(&constants(singles))?,
     };
     let mut atlas = Atlas::new(effect);
     for outcome in singles {
@@ -161,14 +165,15 @@ fn fit_study(
     grounds: &Grounds,
     device: &Measured<Device>,
 ) -> Result<FitStudy, ValidateError> {
-    let judged = |target: &Target| accuracy(shipped, target, device);
-    let regions = grounds
-        .regions
-        .iter()
-        .map(|(name, target)| Ok(((*name).to_owned(), judged(target)?)))
-        .collect::<Result<Vec<_>, ValidateError>>()?;
-    let hard_cases = grounds.hard_cases.as_ref().map(judged).transpose()?;
-    let parity = match (device, grounds.everywhere()) {
+    let judged = |targets: Vec<(&'static str, Target)>| {
+        targets
+            .iter()
+            .map(|(name, target)| Ok(((*name).to_owned(), accuracy(shipped, target, device)?)))
+            .collect::<Result<Vec<_>, ValidateError>>()
+    };
+    let regions = judged(grounds.regions(&shipped.form)?)?;
+    let hard_cases = judged(grounds.hard_cases(&shipped.form)?)?;
+    let parity = match (device, grounds.everywhere(&shipped.form)?) {
         (Measured::Value(device), Some(target)) => {
             Measured::Value(parity(shipped, &target, device)?)
         }

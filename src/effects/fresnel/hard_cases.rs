@@ -1,6 +1,18 @@
 //! Points that break careless implementations.
 
+use crate::effects::registry::{Region, Yardstick};
 use crate::table::{Column, Table};
+
+/// The hard cases, as registered.
+pub(super) const HARD_CASES: Region = Region {
+    name: "hard cases",
+    description: "interfaces whose curves are hardest, at grazing and normal incidence and about \
+                  their Brewster angles",
+    points: table,
+    fitted: None,
+    by: None,
+    yardstick: Yardstick::MaxAbs,
+};
 
 /// Interfaces whose curves are hardest: index n and k.
 const INTERFACES: [(f64, f64); 9] = [
@@ -23,7 +35,7 @@ const INTERFACES: [(f64, f64); 9] = [
 /// Every interface at grazing and normal incidence, in between, and about its (pseudo-)Brewster
 /// angle. Columns `mu`, `n`, `k`, and `eta`, which is n: the absorbing ones enter as dielectrics
 /// too.
-pub(super) fn table() -> Table {
+fn table() -> Table {
     let mut points: Vec<[f64; 4]> = Vec::new();
     for (n, k) in INTERFACES {
         // Where Re(mu^2 (m^2 + 1)) = 1 for k = 0; near the minimum of R_p otherwise.

@@ -19,6 +19,7 @@ pub(super) const LAWS: &[Law] = &[
                       last place for the final sum",
         violation: |form| worst(form, &[0.0], &F_NORMAL, |_, _, value| (value - 1.0).abs()),
         tolerance: ROUNDING,
+        references: &[],
         known_violations: &[],
     },
     Law {
@@ -27,6 +28,7 @@ pub(super) const LAWS: &[Law] = &[
                       the last place for the final sum",
         violation: |form| worst(form, &[1.0], &F_NORMAL, |_, f, value| (value - f).abs()),
         tolerance: ROUNDING,
+        references: &[],
         known_violations: &[
             ("fresnel/spherical_gaussian", "2^(a - b) of the way to 1 is left: 1.7e-4 as printed"),
             ("fresnel/spherical_gaussian_weight", "2^(a - b) is left: 1.7e-4 as printed"),
@@ -44,6 +46,7 @@ pub(super) const LAWS: &[Law] = &[
             worst(form, &mu, &F_NORMAL[4..], |_, _, value| (-value).max(value - 1.0))
         },
         tolerance: ROUNDING,
+        references: &[],
         known_violations: &[
             ("fresnel/lazanyi", "the error term does not shrink with 1 - F0: a < 0 adds to 1"),
             ("fresnel/f_tint", "the error term does not shrink with 1 - F0: tint > 1 adds to 1"),
@@ -65,6 +68,7 @@ pub(super) const LAWS: &[Law] = &[
             largest(slopes) / f64::from(step)
         },
         tolerance: 0.04,
+        references: &[],
         known_violations: &[
             ("fresnel/schlick_exponent", "a power near 1, as fitted to gold in R: slope 1.1"),
             ("fresnel/spherical_gaussian", "slope 2^(a - b) (2a - b) ln 2: 0.06 for gold in R"),

@@ -41,7 +41,7 @@ mod laws;
 pub mod materials;
 pub mod reference;
 
-use crate::effects::registry::{DomainError, Effect, Quantity, Reference, Region};
+use crate::effects::registry::{DomainError, Effect, Quantity, Reference, Region, Yardstick};
 use crate::table::{Column, Table};
 
 /// The effect, as registered.
@@ -55,10 +55,11 @@ pub const EFFECT: Effect = Effect {
     forms: forms::FORMS,
     families: &[materials::FAMILY],
     regions: &[ALL_ANGLES],
-    hard_cases: hard_cases::table,
+    hard_cases: &[hard_cases::HARD_CASES],
     laws: laws::LAWS,
-    baseline: "fresnel/schlick",
+    baselines: &["fresnel/schlick"],
     findings: findings::findings,
+    exhibits: |_| Ok(Vec::new()),
 };
 
 const MU: Quantity = Quantity { name: "mu", unit: "1", domain: "[0, 1]" };
@@ -127,4 +128,7 @@ const ALL_ANGLES: Region = Region {
         let column = Column { name: "mu".into(), unit: "1".into(), values: mu, uncertainty: None };
         Table { columns: vec![column], origin: "region [0, 1] of fresnel".into() }
     },
+    fitted: None,
+    by: None,
+    yardstick: Yardstick::MaxAbs,
 };

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use crate::effects::registry::Region;
+use crate::effects::registry::{Region, Yardstick};
 use crate::table::{Column, Table};
 
 /// Largest |x| for which forms are judged.
@@ -22,12 +22,18 @@ pub(super) const REGIONS: &[Region] = &[
         description: "Where eq. 29 was fitted: 4000 points between those of the fits, 2000 drawn \
                       uniformly, and the hard cases inside.",
         points: near,
+        fitted: None,
+        by: None,
+        yardstick: Yardstick::MaxAbs,
     },
     Region {
         name: "[10, 1e4]",
         description: "Beyond it, where side lobes are differences of tails: 4000 points in equal \
                       ratios, 2000 drawn log-uniformly, both signs, and the hard cases inside.",
         points: far,
+        fitted: None,
+        by: None,
+        yardstick: Yardstick::MaxAbs,
     },
     Region {
         name: "scene",
@@ -35,8 +41,22 @@ pub(super) const REGIONS: &[Region] = &[
                       6 um, wavelengths of 380 to 780 nm and |q| up to 2, each drawn uniformly \
                       (6000 draws). |x| goes up to 198.4, half of it is below 30.",
         points: scene,
+        fitted: None,
+        by: None,
+        yardstick: Yardstick::MaxAbs,
     },
 ];
+
+/// The hard cases, as registered.
+pub(super) const HARD_CASES: Region = Region {
+    name: "hard cases",
+    description: "subnormal and tiny arguments, branch switches of forms, zeros of sine and cosine \
+                  up to 1e4, both signs of each with their neighbours",
+    points: hard_cases,
+    fitted: None,
+    by: None,
+    yardstick: Yardstick::MaxAbs,
+};
 
 /// Points that have broken implementations, both signs of each.
 pub(super) fn hard_cases() -> Table {

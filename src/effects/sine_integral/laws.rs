@@ -16,6 +16,7 @@ pub(super) const LAWS: &[Law] = &[
                       hard cases.",
         violation: oddness,
         tolerance: 0.0,
+        references: &[],
         known_violations: &[],
     },
     Law {
@@ -24,6 +25,7 @@ pub(super) const LAWS: &[Law] = &[
                       for x in [1e3, 1e4]. The tolerance is 4 ulp of pi/2.",
         violation: tail_excess,
         tolerance: 5e-7,
+        references: &[],
         known_violations: &[("sine_integral/published", PUBLISHED_TAIL)],
     },
     Law {
@@ -35,6 +37,7 @@ pub(super) const LAWS: &[Law] = &[
                       rounding of pi/2 to f32 alone makes 3e-4.",
         violation: tail_bias,
         tolerance: 0.01,
+        references: &[],
         known_violations: &[("sine_integral/published", PUBLISHED_TAIL)],
     },
     Law {
@@ -42,6 +45,7 @@ pub(super) const LAWS: &[Law] = &[
         description: "|Si(x)| <= Si(pi): largest excess over the hard cases and a grid to 4 pi.",
         violation: excess_over_maximum,
         tolerance: 1e-4,
+        references: &[],
         known_violations: &[],
     },
     Law {
@@ -50,6 +54,7 @@ pub(super) const LAWS: &[Law] = &[
                       tolerance is 4 ulp of Si(pi), where the curve is flat.",
         violation: largest_fall,
         tolerance: 5e-7,
+        references: &[],
         known_violations: &[
             ("sine_integral/published", "its maximum, 1.808, lies at x = 3.04, short of pi"),
             ("sine_integral/lookup_64", CHORD),

@@ -39,10 +39,11 @@ pub const EFFECT: Effect = Effect {
     forms: FORMS,
     families: &[],
     regions: hard_cases::REGIONS,
-    hard_cases: hard_cases::hard_cases,
+    hard_cases: &[hard_cases::HARD_CASES],
     laws: laws::LAWS,
-    baseline: "sine_integral/published",
+    baselines: &["sine_integral/published"],
     findings: findings::findings,
+    exhibits: |_| Ok(Vec::new()),
 };
 
 const REFERENCE: Reference = Reference {

@@ -27,7 +27,12 @@ fn errors(form: &Form) -> Vec<(f64, f32)> {
             if error > worst.0 || error.is_nan() { (error, x) } else { worst }
         })
     };
-    EFFECT.regions.iter().map(|r| region(r.points)).chain([region(EFFECT.hard_cases)]).collect()
+    EFFECT
+        .regions
+        .iter()
+        .map(|r| region(r.points))
+        .chain([region(EFFECT.hard_cases[0].points)])
+        .collect()
 }
 
 #[test]

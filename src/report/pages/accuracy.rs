@@ -1,6 +1,7 @@
 //! Errors per region and precision, laws, and parity with the device.
 
 use super::{Evidence, bare, count, device_notice, no_device, place};
+use crate::effects::registry::Yardstick;
 use crate::report::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
 use crate::validate::accuracy::Accuracy;
 use crate::validate::laws::LawStanding;
@@ -29,40 +30,50 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
             section = section.block(table(caption, &rows));
         }
     }
-    let hard: Vec<(&str, &Accuracy)> = evidence
-        .study
-        .fits
-        .iter()
-        .filter_map(|fit| Some((bare(&fit.outcome.name), fit.hard_cases.as_ref()?)))
-        .collect();
-    if !hard.is_empty() {
-        section = section
-            .block(table("Hard cases: points that have broken implementations.".into(), &hard));
+    for set in evidence.effect.hard_cases {
+        let rows: Vec<(&str, &Accuracy)> = evidence
+            .study
+            .fits
+            .iter()
+            .filter_map(|fit| {
+                let found = fit.hard_cases.iter().find(|(name, _)| name == set.name)?;
+                Some((bare(&fit.outcome.name), &found.1))
+            })
+            .collect();
+        if !rows.is_empty() {
+            let caption = format!("Hard cases ({}): {}", set.name, set.description);
+            section = section.block(table(caption, &rows));
+        }
     }
     section
 }
 
 fn table(caption: String, rows: &[(&str, &Accuracy)]) -> Table {
-    let mut table = Table::new(
-        caption,
-        vec![
-            Column::code("fit"),
-            Column::number("max |error|, f64", "1"),
-            Column::number("max |error|, f32", "1"),
-            Column::number("max |error|, device", "1"),
-            Column::number("RMS, f32", "1"),
-            Column::number("bias, f32", "1"),
-            Column::number("p99, f32", "1"),
-            Column::number("max relative, f32", "1"),
-            Column::text("where (f32)"),
-        ],
-    );
+    let by_norm = rows.iter().any(|(_, accuracy)| accuracy.yardstick == Yardstick::RelativeL2);
+    let mut columns = vec![
+        Column::code("fit"),
+        Column::number("max |error|, f64", "1"),
+        Column::number("max |error|, f32", "1"),
+        Column::number("max |error|, device", "1"),
+        Column::number("RMS, f32", "1"),
+        Column::number("bias, f32", "1"),
+        Column::number("p99, f32", "1"),
+        Column::number("max relative, f32", "1"),
+        Column::text("where (f32)"),
+    ];
+    if by_norm {
+        let grouped = rows.iter().any(|(_, accuracy)| !accuracy.relative_l2.at.is_empty());
+        let title = if grouped { "relative L2, worst group" } else { "relative L2" };
+        columns.insert(1, Column::number(title, "1"));
+        columns.insert(2, Column::text("worst group"));
+    }
+    let mut table = Table::new(caption, columns);
     for (name, accuracy) in rows {
         let device = match &accuracy.device {
             Measured::Value(residuals) => Cell::number(residuals.max_abs, 4),
             Measured::NotMeasured(_) => no_device(),
         };
-        table.push(vec![
+        let mut row = vec![
             Cell::text(*name),
             Cell::number(accuracy.f64.max_abs, 4),
             Cell::number(accuracy.f32.max_abs, 4),
@@ -72,7 +83,12 @@ fn table(caption: String, rows: &[(&str, &Accuracy)]) -> Table {
             Cell::number(accuracy.f32.p99, 3),
             Cell::number_or(accuracy.f32.max_rel, 3, "the target is 0 everywhere"),
             Cell::text(place(&accuracy.f32.max_abs_at)),
-        ]);
+        ];
+        if by_norm {
+            row.insert(1, Cell::number(accuracy.relative_l2.value, 3));
+            row.insert(2, Cell::text(place(&accuracy.relative_l2.at)));
+        }
+        table.push(row);
     }
     table
 }

@@ -1,6 +1,7 @@
 //! Error against cost, with the frontier drawn.
 
 use super::{Evidence, bare, count, device_notice, no_device};
+use crate::effects::registry::Yardstick;
 use crate::report::document::{Cell, Column, Figure, Highlight, Section, Table};
 use crate::report::plot::{Axis, Plot, Series};
 use crate::validate::cost::{Cost, Costs};
@@ -12,14 +13,18 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
     section = match &costs.adapter {
         Measured::Value(adapter) => section.paragraph(format!(
             "Device: {adapter}. Medians of interleaved rounds in one run, net of an empty kernel; \
-             ratios refer to `{}`.",
-            bare(&costs.baseline)
+             ratios refer to {}.",
+            baselines(costs)
         )),
         Measured::NotMeasured(_) => device_notice(section, &costs.adapter)
             .paragraph("Costs below are those of the f32 lanes on one core."),
     };
-    let points = errors(evidence);
-    if points.len() > 1 {
+    let groups: Vec<&str> = groups(costs);
+    for (number, group) in groups.iter().enumerate() {
+        let (points, yardstick) = errors(evidence, group);
+        if points.len() < 2 {
+            continue;
+        }
         let (axis, where_measured) = match &costs.adapter {
             Measured::Value(_) => (Axis::log("cost on the device", "ns per evaluation"), "device"),
             Measured::NotMeasured(_) => {
@@ -27,9 +32,12 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
             }
         };
         let mut plot = Plot::new(
-            format!("{}: error against cost", evidence.effect.title),
+            match groups.len() {
+                1 => format!("{}: error against cost", evidence.effect.title),
+                _ => format!("Error against cost, beside {}", bare(group)),
+            },
             axis,
-            Axis::log("max |error|, f32", "1"),
+            Axis::log(format!("{}, f32", yardstick.words()), "1"),
         )
         .series(Series::markers("forms", points.iter().map(|(_, cost, error)| (*cost, *error))))
         .with_frontier();
@@ -37,10 +45,13 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
             plot = plot.annotate(*cost, *error, bare(name));
         }
         section = section.block(Figure::new(
-            format!("{}-cost", evidence.effect.name.replace('_', "-")),
+            match number {
+                0 => format!("{}-cost", evidence.effect.name.replace('_', "-")),
+                _ => format!("{}-cost-{number}", evidence.effect.name.replace('_', "-")),
+            },
             format!(
-                "Largest error against cost ({where_measured}); the staircase joins the forms that no \
-                 other beats in both."
+                "Error against cost ({where_measured}); the staircase joins the forms that no other \
+                 beats in both."
             ),
             plot,
         ));
@@ -48,18 +59,40 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
     section.block(table(costs)).block(references(costs))
 }
 
-/// Name, cost and largest error of every timed fit: over the effect's first region for fits to a
-/// reference, over all members for fits to a family.
-fn errors<'a>(evidence: &Evidence<'a>) -> Vec<(&'a str, f64, f64)> {
+/// The baselines of the groups of forms that are compared, in order.
+fn groups(costs: &Costs) -> Vec<&str> {
+    let mut groups: Vec<&str> = costs.forms.iter().map(|cost| cost.baseline.as_str()).collect();
+    groups.dedup();
+    groups
+}
+
+fn baselines(costs: &Costs) -> String {
+    let names: Vec<String> =
+        groups(costs).into_iter().map(|name| format!("`{}`", bare(name))).collect();
+    match names.as_slice() {
+        [one] => one.clone(),
+        _ => format!("the one of {} that is fitted to the same reference", names.join(", ")),
+    }
+}
+
+/// Name, cost and error of every timed fit of the group that refers to `baseline`: over its first
+/// region for fits to a reference, over all members for fits to a family; and what error that is.
+fn errors<'a>(evidence: &Evidence<'a>, baseline: &str) -> (Vec<(&'a str, f64, f64)>, Yardstick) {
     let study = evidence.study;
-    evidence
+    let mut yardstick = Yardstick::MaxAbs;
+    let points = evidence
         .costs
         .forms
         .iter()
+        .filter(|cost| cost.baseline == baseline)
         .filter_map(|cost| {
             let single = study.fits.iter().find(|fit| fit.outcome.name == cost.name);
             let error = match single {
-                Some(fit) if study.families.is_empty() => fit.regions.first()?.1.f32.max_abs,
+                Some(fit) if study.families.is_empty() => {
+                    let accuracy = &fit.regions.first()?.1;
+                    yardstick = accuracy.yardstick;
+                    accuracy.headline()
+                }
                 _ => {
                     study
                         .families
@@ -71,7 +104,8 @@ fn errors<'a>(evidence: &Evidence<'a>) -> Vec<(&'a str, f64, f64)> {
             };
             Some((cost.name.as_str(), cost.nanoseconds(), error))
         })
-        .collect()
+        .collect();
+    (points, yardstick)
 }
 
 fn table(costs: &Costs) -> Table {
@@ -92,12 +126,12 @@ fn table(costs: &Costs) -> Table {
         ],
     );
     for cost in &costs.forms {
-        table.push(row(cost, &costs.baseline, costs.adapter.value().is_some()));
+        table.push(row(cost, costs.adapter.value().is_some()));
     }
     table
 }
 
-fn row(cost: &Cost, baseline: &str, has_device: bool) -> Vec<Cell> {
+fn row(cost: &Cost, has_device: bool) -> Vec<Cell> {
     let operations = &cost.operations;
     let mut row = vec![
         Cell::text(bare(&cost.name)),
@@ -121,7 +155,7 @@ fn row(cost: &Cost, baseline: &str, has_device: bool) -> Vec<Cell> {
         }
         Measured::NotMeasured(_) => row.extend((0..3).map(|_| no_device())),
     }
-    if cost.name == baseline {
+    if cost.name == cost.baseline {
         row = row.into_iter().map(|cell| cell.highlighted(Highlight::Subject)).collect();
     }
     row

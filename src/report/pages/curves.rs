@@ -54,7 +54,7 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Result<Section, ValidateError>
 /// The fits, the baseline first, so that it is drawn and others are compared with it.
 fn ordered<'a>(evidence: &Evidence<'a>) -> Vec<&'a FitStudy> {
     let mut fits: Vec<&FitStudy> = evidence.study.fits.iter().collect();
-    fits.sort_by_key(|fit| fit.outcome.name != evidence.effect.baseline);
+    fits.sort_by_key(|fit| !evidence.effect.baselines.contains(&fit.outcome.name.as_str()));
     fits
 }
 
@@ -77,7 +77,7 @@ fn figures(
         let mut plot = Plot::new(title, axis(), Axis::linear("error", "1"));
         for curve in &coarse {
             let series = Series::line(bare(&curve.name), curve.points.iter().copied());
-            let baseline = curve.name == evidence.effect.baseline;
+            let baseline = evidence.effect.baselines.contains(&curve.name.as_str());
             plot = plot.series(if baseline { series.strong() } else { series });
         }
         let finer = if coarse.len() < curves.len() {

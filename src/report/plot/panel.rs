@@ -85,7 +85,7 @@ impl Axes {
 
 /// Room for ticks at one per `pixels`, 2 or more.
 fn steps(length: f64, pixels: f64) -> usize {
-    (2..=12).take_while(|n| f64::from(*n) * pixels <= length).last().unwrap_or(2) as usize
+    (2_u32..=12).take_while(|n| f64::from(*n) * pixels <= length).last().unwrap_or(2) as usize
 }
 
 fn has_markers(plot: &Plot) -> bool {
