@@ -11,6 +11,7 @@ use super::output::{significant, table};
 use super::studies::{self, Results, Studied};
 use crate::effects::registry::Yardstick;
 use crate::validate::cost::{Cost, Costs};
+use crate::validate::goals::{GoalVerdict, goals};
 use crate::validate::measured::Measured;
 
 const MORE: &str = "\
@@ -46,6 +47,7 @@ struct Bench {
     effect: String,
     costs: Costs,
     forms: Vec<Line>,
+    goals: Vec<GoalVerdict>,
 }
 
 /// Times, and prints the frontier.
@@ -84,7 +86,12 @@ fn bench(studied: &Studied) -> Bench {
             best = best.min(worst);
         }
     }
-    Bench { effect: studied.effect.name.to_owned(), costs: studied.costs.clone(), forms }
+    Bench {
+        effect: studied.effect.name.to_owned(),
+        costs: studied.costs.clone(),
+        forms,
+        goals: goals(studied.effect, &studied.study, &studied.costs),
+    }
 }
 
 fn errors(studied: &Studied, fit: &str) -> Vec<(String, f64)> {
@@ -134,6 +141,7 @@ fn text(bench: &Bench) -> String {
         bench.costs.forms.iter().map(|cost| cost.baseline.as_str()).collect();
     baselines.dedup();
     baselines.iter().for_each(|baseline| text.push_str(&asked(bench, baseline)));
+    bench.goals.iter().for_each(|goal| text.push_str(&goal_line(goal)));
     text
 }
 
@@ -163,6 +171,29 @@ fn row(line: &Line) -> Vec<String> {
         significant(line.cost.lanes_f32_ns, 3),
         significant(line.cost.lanes_f64_ns, 3),
     ]
+}
+
+/// A goal beside what was reached.
+fn goal_line(goal: &GoalVerdict) -> String {
+    let cost = match &goal.cost {
+        Measured::Value(ratio) => format!("{}×", significant(*ratio, 3)),
+        Measured::NotMeasured(_) => "a cost not measured".to_owned(),
+    };
+    let met = match goal.met {
+        Measured::Value(true) => "met",
+        Measured::Value(false) => "NOT MET",
+        Measured::NotMeasured(_) => "not measured",
+    };
+    format!(
+        "goal {}: {} ≤ {} over {} at ≤ {}× {}: {} at {cost}: {met}\n",
+        goal.fit,
+        goal.yardstick,
+        significant(goal.error_asked, 3),
+        goal.region,
+        significant(goal.cost_asked, 3),
+        goal.baseline,
+        significant(goal.error, 3),
+    )
 }
 
 /// The two questions a renderer asks of the baseline: what is as cheap and better, what is as good

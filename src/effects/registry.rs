@@ -195,6 +195,21 @@ pub struct Family {
 #[error("{0}")]
 pub struct FamilyError(pub String);
 
+/// An error that a form was to reach at a cost, held beside what it reaches.
+#[derive(Debug, Clone, Copy)]
+pub struct Goal {
+    /// The fit.
+    pub fit: &'static str,
+    /// The region, or set of hard cases, in which the error is taken, by its yardstick.
+    pub region: &'static str,
+    /// Largest error.
+    pub error: f64,
+    /// Largest cost on the device relative to the baseline of its reference.
+    pub cost: f64,
+    /// Why this error and this cost.
+    pub why: &'static str,
+}
+
 /// One physical thing.
 #[derive(Debug, Clone, Copy)]
 pub struct Effect {
@@ -217,6 +232,8 @@ pub struct Effect {
     pub hard_cases: &'static [Region],
     /// Properties of every form.
     pub laws: &'static [Law],
+    /// What was set out to be reached.
+    pub goals: &'static [Goal],
     /// The fits that ratios of cost refer to, one per reference: what renderers ship today.
     pub baselines: &'static [&'static str],
     /// Claims of papers, checked.

@@ -20,7 +20,11 @@ pub struct Evidence {
     root: PathBuf,
     refits: Refits,
     families: BTreeMap<&'static str, Vec<Member>>,
+    judged: BTreeMap<PointsKey, Judged>,
 }
+
+/// Reference and domain of a gate; without a domain, its fit too.
+type PointsKey = ((String, Option<String>), Option<String>);
 
 /// A subject, or why the gate fails without being measured.
 pub(super) type Found<T> = Result<T, String>;
@@ -29,7 +33,7 @@ impl Evidence {
     /// The project in the folder `root`, which holds `fits/` and `data/measured/`. `refits` tell
     /// results that are stale.
     pub fn new(root: PathBuf, refits: Refits) -> Self {
-        Self { root, refits, families: BTreeMap::new() }
+        Self { root, refits, families: BTreeMap::new(), judged: BTreeMap::new() }
     }
 
     /// The project's folder.
@@ -123,8 +127,15 @@ impl Evidence {
             SpecTarget::Reference(name) => {
                 let (effect, reference) = registry::reference(name)
                     .ok_or_else(|| gate.fault(format!("its target `{name}` is no reference")))?;
-                let (points, by) = reference_points(gate, spec, effect, reference)?;
-                Ok(Judged::new(reference, points, by, Yardstick::MaxAbs)?.target(&shipped.form)?)
+                let key = (name.clone(), gate.domain.as_ref().map(ToString::to_string));
+                let key = (key, gate.domain.is_none().then(|| spec.name.clone()));
+                if !self.judged.contains_key(&key) {
+                    let (points, by) = reference_points(gate, spec, effect, reference)?;
+                    let judged = Judged::new(reference, points, by, Yardstick::MaxAbs)?;
+                    self.judged.insert(key.clone(), judged);
+                }
+                let judged = self.judged.get(&key).ok_or_else(|| gate.fault("no points".into()))?;
+                Ok(judged.target(&shipped.form)?)
             }
             SpecTarget::Family(name) => {
                 let label = label_of(outcome);

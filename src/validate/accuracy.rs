@@ -10,7 +10,7 @@ use crate::effects::registry::Region;
 use crate::effects::registry::{Reference, Yardstick};
 use crate::fit::outcome::Residuals;
 use crate::form::Form;
-use crate::gpu::Device;
+use crate::gpu::{Device, Kernel};
 use crate::table::Table;
 use crate::validate::ValidateError;
 use crate::validate::measured::Measured;
@@ -210,33 +210,45 @@ pub struct Accuracy {
     pub relative_l2: RelativeL2,
     /// The error by which forms are compared here.
     pub yardstick: Yardstick,
+    /// That error on the device; NaN where it has no value.
+    pub headline_device: Measured<f64>,
 }
 
 impl Accuracy {
     /// The error in f32 by which forms are compared; NaN where it has no value.
     pub fn headline(&self) -> f64 {
-        match self.yardstick {
-            Yardstick::MaxAbs => self.f32.max_abs,
-            Yardstick::MaxRelative => self.f32.max_rel.unwrap_or(f64::NAN),
-            Yardstick::RelativeL2 => self.relative_l2.value,
-        }
+        headline(self.yardstick, &self.f32, self.relative_l2.value)
     }
 }
 
-/// Measures `shipped` against `target` in f64, in f32 and, where there is one, on the device.
+fn headline(yardstick: Yardstick, residuals: &Residuals, relative_l2: f64) -> f64 {
+    match yardstick {
+        Yardstick::MaxAbs => residuals.max_abs,
+        Yardstick::MaxRelative => residuals.max_rel.unwrap_or(f64::NAN),
+        Yardstick::RelativeL2 => relative_l2,
+    }
+}
+
+/// Measures `shipped` against `target` in f64, in f32 and, where there is one, on the device with
+/// the form's `kernel`.
 ///
 /// # Errors
 /// If the form cannot be evaluated, or the device fails.
 pub fn accuracy(
     shipped: &Shipped,
     target: &Target,
-    device: &Measured<Device>,
+    kernel: &Measured<Kernel<'_>>,
 ) -> Result<Accuracy, ValidateError> {
-    let device = match device {
-        Measured::NotMeasured(reason) => Measured::NotMeasured(reason.clone()),
-        Measured::Value(device) => {
-            let values = device_values(shipped, target, device)?;
-            Measured::Value(target.residuals(&widened(&values)))
+    let (device, headline_device) = match kernel {
+        Measured::NotMeasured(reason) => {
+            (Measured::NotMeasured(reason.clone()), Measured::NotMeasured(reason.clone()))
+        }
+        Measured::Value(kernel) => {
+            let values = widened(&kernel_values(kernel, target)?);
+            let residuals = target.residuals(&values);
+            let norm = target.relative_l2(&values).value;
+            let headline = headline(target.yardstick, &residuals, norm);
+            (Measured::Value(residuals), Measured::Value(headline))
         }
     };
     let values = widened(&values_f32(shipped, target)?);
@@ -244,6 +256,7 @@ pub fn accuracy(
         f64: residuals_f64(shipped, target)?,
         f32: target.residuals(&values),
         device,
+        headline_device,
         relative_l2: target.relative_l2(&values),
         yardstick: target.yardstick,
     })
@@ -324,7 +337,14 @@ pub(crate) fn device_values(
     target: &Target,
     device: &Device,
 ) -> Result<Vec<f32>, ValidateError> {
-    let kernel = device.compile(&shipped.form, &shipped.constants_f32)?;
+    kernel_values(&device.compile(&shipped.form, &shipped.constants_f32)?, target)
+}
+
+/// Values of a compiled form at the target's points.
+pub(crate) fn kernel_values(
+    kernel: &Kernel<'_>,
+    target: &Target,
+) -> Result<Vec<f32>, ValidateError> {
     let mut values = kernel.evaluate(&narrowed(&target.inputs))?;
     Ok(values.swap_remove(0))
 }

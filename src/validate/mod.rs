@@ -5,6 +5,7 @@ pub mod candidates;
 pub mod cost;
 pub mod curves;
 pub mod family;
+pub mod goals;
 pub mod laws;
 pub mod measured;
 pub mod parity;

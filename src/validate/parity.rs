@@ -6,10 +6,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::gpu::Device;
+use crate::gpu::Kernel;
 use crate::numeric::ulp::ulp_distance_f32;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Shipped, Target, device_values, values_f32};
+use crate::validate::accuracy::{Shipped, Target, kernel_values, values_f32};
 
 /// Upper ends of the histogram's bins, in units in the last place; the last bin is open.
 pub const BINS: [u64; 8] = [0, 1, 2, 4, 16, 256, 65_536, u64::MAX];
@@ -33,17 +33,17 @@ pub struct Parity {
     pub nan_mismatches: usize,
 }
 
-/// Compares the device with the f32 lanes at the target's points.
+/// Compares the form compiled for a device with the f32 lanes at the target's points.
 ///
 /// # Errors
 /// If the form cannot be evaluated, or the device fails.
 pub fn parity(
     shipped: &Shipped,
     target: &Target,
-    device: &Device,
+    kernel: &Kernel<'_>,
 ) -> Result<Parity, ValidateError> {
     let lanes = values_f32(shipped, target)?;
-    let on_device = device_values(shipped, target, device)?;
+    let on_device = kernel_values(kernel, target)?;
     let mut found = Parity {
         name: shipped.name.clone(),
         count: lanes.len(),

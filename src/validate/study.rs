@@ -165,17 +165,23 @@ fn fit_study(
     grounds: &Grounds,
     device: &Measured<Device>,
 ) -> Result<FitStudy, ValidateError> {
+    let kernel = match device {
+        Measured::Value(device) => {
+            Measured::Value(device.compile(&shipped.form, &shipped.constants_f32)?)
+        }
+        Measured::NotMeasured(reason) => Measured::NotMeasured(reason.clone()),
+    };
     let judged = |targets: Vec<(&'static str, Target)>| {
         targets
             .iter()
-            .map(|(name, target)| Ok(((*name).to_owned(), accuracy(shipped, target, device)?)))
+            .map(|(name, target)| Ok(((*name).to_owned(), accuracy(shipped, target, &kernel)?)))
             .collect::<Result<Vec<_>, ValidateError>>()
     };
     let regions = judged(grounds.regions(&shipped.form)?)?;
     let hard_cases = judged(grounds.hard_cases(&shipped.form)?)?;
-    let parity = match (device, grounds.everywhere(&shipped.form)?) {
-        (Measured::Value(device), Some(target)) => {
-            Measured::Value(parity(shipped, &target, device)?)
+    let parity = match (&kernel, grounds.everywhere(&shipped.form)?) {
+        (Measured::Value(kernel), Some(target)) => {
+            Measured::Value(parity(shipped, &target, kernel)?)
         }
         (Measured::Value(_), None) => {
             Measured::NotMeasured("the effect has no region for it".into())

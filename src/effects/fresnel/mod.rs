@@ -57,6 +57,7 @@ pub const EFFECT: Effect = Effect {
     regions: &[ALL_ANGLES],
     hard_cases: &[hard_cases::HARD_CASES],
     laws: laws::LAWS,
+    goals: &[],
     baselines: &["fresnel/schlick"],
     findings: findings::findings,
     exhibits: |_| Ok(Vec::new()),

@@ -41,6 +41,7 @@ pub const EFFECT: Effect = Effect {
     regions: hard_cases::REGIONS,
     hard_cases: &[hard_cases::HARD_CASES],
     laws: laws::LAWS,
+    goals: &[],
     baselines: &["sine_integral/published"],
     findings: findings::findings,
     exhibits: |_| Ok(Vec::new()),

@@ -2,9 +2,10 @@
 
 use super::{Evidence, bare, count, device_notice, no_device};
 use crate::effects::registry::Yardstick;
-use crate::report::document::{Cell, Column, Figure, Highlight, Section, Table};
+use crate::report::document::{Cell, Column, Figure, Highlight, Section, Table, Verdict};
 use crate::report::plot::{Axis, Plot, Series};
 use crate::validate::cost::{Cost, Costs};
+use crate::validate::goals::{GoalVerdict, goals};
 use crate::validate::measured::Measured;
 
 pub(super) fn section(evidence: &Evidence<'_>) -> Section {
@@ -56,7 +57,48 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
             plot,
         ));
     }
-    section.block(table(costs)).block(references(costs))
+    section = section.block(table(costs)).block(references(costs));
+    let verdicts = goals(evidence.effect, evidence.study, costs);
+    if verdicts.is_empty() { section } else { section.block(goal_table(&verdicts)) }
+}
+
+fn goal_table(verdicts: &[GoalVerdict]) -> Table {
+    let mut table = Table::new(
+        "What was set out to be reached, beside what is reached: error on the device (in f32 where \
+         there is none) and cost relative to the baseline.",
+        vec![
+            Column::code("fit"),
+            Column::text("error, region"),
+            Column::number("asked", "1"),
+            Column::number("reached", "1"),
+            Column::code("baseline"),
+            Column::number("cost asked", "1"),
+            Column::number("cost", "1"),
+            Column::verdict("verdict"),
+            Column::text("why"),
+        ],
+    );
+    for goal in verdicts {
+        table.push(vec![
+            Cell::text(bare(&goal.fit)),
+            Cell::text(format!("{}, {}", goal.yardstick, goal.region)),
+            Cell::number(goal.error_asked, 3),
+            Cell::number(goal.error, 3),
+            Cell::text(bare(&goal.baseline)),
+            Cell::number(goal.cost_asked, 3),
+            match &goal.cost {
+                Measured::Value(ratio) => Cell::number(*ratio, 3),
+                Measured::NotMeasured(_) => no_device(),
+            },
+            match &goal.met {
+                Measured::Value(true) => Cell::verdict_as(Verdict::Pass, "met"),
+                Measured::Value(false) => Cell::verdict_as(Verdict::Fail, "not met"),
+                Measured::NotMeasured(reason) => Cell::missing(reason.clone()),
+            },
+            Cell::text(goal.why.clone()),
+        ]);
+    }
+    table
 }
 
 /// The baselines of the groups of forms that are compared, in order.
