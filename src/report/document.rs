@@ -46,6 +46,23 @@ impl Page {
         self
     }
 
+    /// Its pictures, in order, those inside [`Block::Details`] included.
+    #[must_use]
+    pub fn pictures(&self) -> Vec<&Picture> {
+        fn collect<'a>(blocks: &'a [Block], into: &mut Vec<&'a Picture>) {
+            for block in blocks {
+                match block {
+                    Block::Picture(picture) => into.push(picture),
+                    Block::Details { blocks, .. } => collect(blocks, into),
+                    _ => {}
+                }
+            }
+        }
+        let mut pictures = Vec::new();
+        self.sections.iter().for_each(|section| collect(&section.blocks, &mut pictures));
+        pictures
+    }
+
     /// Its figures, in order, those inside [`Block::Details`] included.
     #[must_use]
     pub fn figures(&self) -> Vec<&Figure> {
@@ -107,6 +124,8 @@ pub enum Block {
     Table(Table),
     /// One or more plots under one caption.
     Figure(Figure),
+    /// An image.
+    Picture(Picture),
     /// A listing.
     Code {
         /// Language, for the reader and for the JSON; nothing is highlighted.
@@ -133,6 +152,12 @@ pub enum Block {
 impl From<Table> for Block {
     fn from(table: Table) -> Self {
         Self::Table(table)
+    }
+}
+
+impl From<Picture> for Block {
+    fn from(picture: Picture) -> Self {
+        Self::Picture(picture)
     }
 }
 
@@ -197,6 +222,20 @@ impl Figure {
     ) -> Self {
         Self { caption: caption.into(), file_stem: file_stem.into(), plots, per_row }
     }
+}
+
+/// An image under a caption: `figures/<file_stem>.png`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Picture {
+    /// What is shown and what to see in it.
+    pub caption: Inline,
+    /// File name without extension, unique in the report: lower-case letters, digits, `-`, `_`.
+    pub file_stem: String,
+    /// What is to be seen, for those who cannot see it.
+    pub alt: String,
+    /// The PNG file.
+    #[serde(skip)]
+    pub png: Vec<u8>,
 }
 
 /// Where a report comes from: in the footer of every page and at the head of the JSON.

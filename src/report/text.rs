@@ -90,6 +90,10 @@ fn write(block: &Block, out: &mut String) {
                 format!("[figure figures/{}.svg] {}", figure.file_stem, figure.caption.to_plain());
             paragraph(&text, "", out);
         }
+        Block::Picture(picture) => {
+            let (stem, caption) = (&picture.file_stem, picture.caption.to_plain());
+            paragraph(&format!("[picture figures/{stem}.png] {caption}"), "", out);
+        }
         Block::Code { text, .. } => {
             for line in text.lines() {
                 out.push_str(format!("    {line}").trim_end());

@@ -3,7 +3,7 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::tables::table;
-use crate::report::document::{Block, Figure, Inline, NoticeLevel, Span};
+use crate::report::document::{Block, Figure, Inline, NoticeLevel, Picture, Span};
 use crate::report::plot::{Drawing, PlotError, draw};
 
 /// Text with its markup.
@@ -40,6 +40,7 @@ pub(super) fn block(
         Block::List(items) => html! { ul { @for item in items { li { (inline(item)) } } } },
         Block::Table(one) => table(one),
         Block::Figure(one) => figure(one, drawings)?,
+        Block::Picture(one) => picture(one),
         Block::Code { lang, text } => html! { pre data-lang=(lang) { code { (text) } } },
         Block::Notice { level, text } => html! {
             p class={ "notice " (level_class(*level)) } role="note" {
@@ -70,6 +71,18 @@ fn figure(figure: &Figure, drawings: &mut Vec<(String, Drawing)>) -> Result<Mark
     };
     drawings.push((figure.file_stem.clone(), drawing));
     Ok(markup)
+}
+
+fn picture(picture: &Picture) -> Markup {
+    let file = format!("figures/{}.png", picture.file_stem);
+    html! {
+        figure id=(picture.file_stem) {
+            div.scroll tabindex="0" role="region" aria-label={ "picture " (picture.file_stem) } {
+                img src=(file) alt=(picture.alt);
+            }
+            figcaption { (inline(&picture.caption)) " " a.file href=(file) { "PNG" } }
+        }
+    }
 }
 
 fn level_class(level: NoticeLevel) -> &'static str {

@@ -68,8 +68,8 @@ struct Manifest {
     figures: BTreeSet<String>,
 }
 
-/// Writes `index.html`, `<slug>.html` for every page, `report.json`, `report.txt` and
-/// `figures/<stem>.svg` into `dir`, which is made if it is not there.
+/// Writes `index.html`, `<slug>.html` for every page, `report.json`, `report.txt`,
+/// `figures/<stem>.svg` and `figures/<stem>.png` into `dir`, which is made if it is not there.
 ///
 /// Without a page `index`, one is made that lists the others. Everything is rendered before the
 /// first file is written; each file is written beside its place and renamed, so that an interrupted
@@ -87,26 +87,32 @@ pub fn write_site(
 ) -> Result<Written, SiteError> {
     unique("page slug", pages.iter().map(|p| p.slug.as_str()))?;
     let figures = pages.iter().flat_map(|p| p.figures().into_iter().map(|f| f.file_stem.as_str()));
-    unique("figure stem", figures)?;
+    let pictures =
+        pages.iter().flat_map(|p| p.pictures().into_iter().map(|f| f.file_stem.as_str()));
+    unique("figure stem", figures.chain(pictures))?;
     let mut pages = pages.to_vec();
     if !pages.iter().any(|p| p.slug == "index") {
         let summary = "What was fitted to what, how wrong it is, and what it costs.";
         pages.insert(0, Page::new("index", "Report", summary));
     }
 
-    let mut files: Vec<(String, String)> = Vec::new();
+    let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     let mut listed = BTreeSet::new();
     for page in &pages {
         let rendered = render_page(page, &pages, provenance)
             .map_err(|source| SiteError::Plot { page: page.slug.clone(), source })?;
         for (stem, drawing) in rendered.drawings {
-            files.push((format!("figures/{stem}.svg"), drawing.standalone()));
+            files.push((format!("figures/{stem}.svg"), drawing.standalone().into_bytes()));
             listed.insert(format!("{stem}.svg"));
         }
-        files.push((format!("{}.html", page.slug), rendered.html));
+        for picture in page.pictures() {
+            files.push((format!("figures/{}.png", picture.file_stem), picture.png.clone()));
+            listed.insert(format!("{}.png", picture.file_stem));
+        }
+        files.push((format!("{}.html", page.slug), rendered.html.into_bytes()));
     }
-    files.push(("report.json".to_owned(), json::report(&pages, provenance)?));
-    files.push(("report.txt".to_owned(), text::report(&pages, provenance)));
+    files.push(("report.json".to_owned(), json::report(&pages, provenance)?.into_bytes()));
+    files.push(("report.txt".to_owned(), text::report(&pages, provenance).into_bytes()));
     let manifest = Manifest { figures: listed };
     let manifest_text = serde_json::to_string_pretty(&manifest)? + "\n";
 
@@ -114,7 +120,7 @@ pub fn write_site(
     let folder = dir.join("figures");
     std::fs::create_dir_all(&folder).map_err(|source| SiteError::Io { path: folder, source })?;
     let mut removed = Vec::new();
-    let mut put = |name: &str, content: &str| -> Result<(), SiteError> {
+    let mut put = |name: &str, content: &[u8]| -> Result<(), SiteError> {
         let path = dir.join(name);
         write_whole(&path, content)
             .map_err(|source| SiteError::Io { path: path.clone(), source })?;
@@ -133,7 +139,7 @@ pub fn write_site(
         }
     }
     // Last, so that what an interrupted run leaves behind is still listed for the next.
-    put(MANIFEST, &manifest_text)?;
+    put(MANIFEST, manifest_text.as_bytes())?;
     written.removed = removed;
     Ok(written)
 }
@@ -163,13 +169,17 @@ fn old_figures(dir: &Path) -> BTreeSet<String> {
         .ok()
         .and_then(|text| serde_json::from_str::<Manifest>(&text).ok());
     let mut figures = manifest.map(|m| m.figures).unwrap_or_default();
-    figures.retain(|name| name.strip_suffix(".svg").is_some_and(usable));
+    let stem = |name: &str| {
+        let stem = [".svg", ".png"].iter().find_map(|extension| name.strip_suffix(extension));
+        stem.is_some_and(usable)
+    };
+    figures.retain(|name| stem(name));
     figures
 }
 
 /// Writes `content` to `path` through a file beside it, unless it is there already.
-fn write_whole(path: &Path, content: &str) -> std::io::Result<()> {
-    if std::fs::read(path).is_ok_and(|old| old == content.as_bytes()) {
+fn write_whole(path: &Path, content: &[u8]) -> std::io::Result<()> {
+    if std::fs::read(path).is_ok_and(|old| old == content) {
         return Ok(());
     }
     let folder = path.parent().unwrap_or_else(|| Path::new("."));
@@ -182,7 +192,7 @@ fn write_whole(path: &Path, content: &str) -> std::io::Result<()> {
         builder.permissions(std::fs::Permissions::from_mode(0o666))
     };
     let mut file = builder.tempfile_in(folder)?;
-    file.write_all(content.as_bytes())?;
+    file.write_all(content)?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|error| error.error)?;
     Ok(())
