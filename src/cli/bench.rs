@@ -10,6 +10,8 @@ use super::context::Context;
 use super::output::{significant, table};
 use super::studies::{self, Results, Studied};
 use crate::effects::registry::Yardstick;
+use crate::numeric::statistics::largest;
+use crate::validate::cheapest::{Cheapest, cheapest};
 use crate::validate::cost::{Cost, Costs};
 use crate::validate::goals::{GoalVerdict, goals};
 use crate::validate::measured::Measured;
@@ -47,6 +49,7 @@ struct Bench {
     effect: String,
     costs: Costs,
     forms: Vec<Line>,
+    cheapest: Vec<Cheapest>,
     goals: Vec<GoalVerdict>,
 }
 
@@ -81,8 +84,9 @@ fn bench(studied: &Studied) -> Bench {
     for baseline in &baselines {
         let mut best = f64::INFINITY;
         for line in forms.iter_mut().filter(|line| line.cost.baseline == *baseline) {
-            let worst = line.error.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+            let worst = worst(line);
             line.frontier = worst < best;
+            // A NaN is no error to beat.
             best = best.min(worst);
         }
     }
@@ -90,6 +94,7 @@ fn bench(studied: &Studied) -> Bench {
         effect: studied.effect.name.to_owned(),
         costs: studied.costs.clone(),
         forms,
+        cheapest: cheapest(&studied.study, &studied.costs),
         goals: goals(studied.effect, &studied.study, &studied.costs),
     }
 }
@@ -141,6 +146,20 @@ fn text(bench: &Bench) -> String {
         bench.costs.forms.iter().map(|cost| cost.baseline.as_str()).collect();
     baselines.dedup();
     baselines.iter().for_each(|baseline| text.push_str(&asked(bench, baseline)));
+    if !bench.cheapest.is_empty() {
+        let best = |best: &Option<(String, f64)>| match best {
+            Some((fit, ratio)) => format!("{fit} ({}×)", significant(*ratio, 2)),
+            None => "none".to_owned(),
+        };
+        let rows = bench.cheapest.iter().map(|one| {
+            let named = [one.region.clone(), one.baseline.clone()].into_iter();
+            named.chain(one.fits.iter().map(best)).collect()
+        });
+        text.push_str(&table(
+            &["cheapest in region", "baseline", "≤ 10 %", "≤ 1 %", "≤ 0.1 %"],
+            rows.collect(),
+        ));
+    }
     bench.goals.iter().for_each(|goal| text.push_str(&goal_line(goal)));
     text
 }
@@ -196,13 +215,17 @@ fn goal_line(goal: &GoalVerdict) -> String {
     )
 }
 
+/// The largest error of a form over all regions; NaN if one has no value.
+fn worst(line: &Line) -> f64 {
+    largest(line.error.iter().map(|(_, error)| *error))
+}
+
 /// The two questions a renderer asks of the baseline: what is as cheap and better, what is as good
 /// and cheaper.
 fn asked(bench: &Bench, baseline: &str) -> String {
     let Some(baseline) = bench.forms.iter().find(|line| line.fit == baseline) else {
         return String::new();
     };
-    let worst = |line: &Line| line.error.iter().map(|(_, e)| *e).fold(0.0, f64::max);
     let comparable = |line: &&Line| {
         line.cost.baseline == baseline.fit && line.error.len() == baseline.error.len()
     };

@@ -164,11 +164,23 @@ pub(super) fn fit(jobs: &[Job], root: &Path, context: &Context) -> anyhow::Resul
     };
     // Fits that take constants from others come after them.
     let mut results: Vec<Option<anyhow::Result<FitResult>>> = jobs.iter().map(|_| None).collect();
+    let mut failed: Vec<String> = Vec::new();
     for dependent in [false, true] {
         let stage = results.par_iter_mut().zip(jobs);
-        stage
-            .filter(|(_, job)| job.spec.constants.is_empty() != dependent)
-            .for_each(|(place, job)| *place = Some(run(job)));
+        stage.filter(|(_, job)| job.spec.constants.is_empty() != dependent).for_each(
+            |(place, job)| {
+                let source = job.spec.constants.iter().find(|name| failed.contains(name));
+                *place = Some(match source {
+                    None => run(job),
+                    Some(name) => Err(anyhow!("{}: its source {name} failed", job.spec.name)),
+                });
+            },
+        );
+        let ran = results.iter().zip(jobs);
+        failed = ran
+            .filter(|(result, _)| matches!(result, Some(Err(_))))
+            .map(|(_, job)| job.spec.name.clone())
+            .collect();
     }
     let results = results.into_iter().flatten();
     bar.finish_and_clear();

@@ -11,6 +11,7 @@ pub mod sampling;
 pub mod spec;
 mod spec_file;
 pub mod model;
+mod inherit;
 pub mod loss;
 pub mod bounds;
 pub mod problem;

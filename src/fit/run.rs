@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::assemble::Assembly;
 use super::error::FitError;
+use super::inherit::inherit;
 use super::loss::{Loss, factors};
 use super::model::{FormModel, Model, Origin};
 use super::outcome::{
@@ -16,7 +17,7 @@ use super::outcome::{
 use super::problem::Problem;
 use super::round_to_f32::{Shipped, round_to_f32};
 use super::solve::{Ending, Solution, solve_from, starts};
-use super::spec::{FormChoice, ParameterChoice, Spec, Target, Weighting};
+use super::spec::{FormChoice, Spec, Target, Weighting};
 use super::statistics::equioscillations;
 use super::target::{Noise, Points, read_table};
 use super::worth::Worth;
@@ -73,32 +74,6 @@ pub fn run_spec(spec: &Spec, context: &Context) -> Result<FitResult, FitError> {
         Target::Table { label, table, column, weight } => fit.table(label, table, column, weight),
         Target::Family(name) => fit.family(name, context),
     }
-}
-
-/// The spec with every constant fixed that it takes from the results of other fits.
-fn inherit(spec: &Spec, form: &Form, context: &Context) -> Result<Spec, FitError> {
-    let mut spec = spec.clone();
-    for name in &spec.constants.clone() {
-        let wrong = |what: String| spec.fault("constants", what);
-        let path = context.root.join("fits").join(format!("{name}.json"));
-        if name.contains("..") || !path.is_file() {
-            return Err(wrong(format!("`{name}` has no result; run `striae fit {name}` first")));
-        }
-        let FitResult::Single(outcome) = FitResult::read(&path)? else {
-            return Err(wrong(format!("`{name}` is a family of fits")));
-        };
-        let known = |parameter: &str| form.parameters().iter().any(|p| p.name == parameter);
-        if !outcome.parameters.keys().any(|parameter| known(parameter)) {
-            return Err(wrong(format!("`{name}` shares no constant with {}", form.origin())));
-        }
-        for (parameter, found) in outcome.parameters {
-            if known(&parameter) {
-                let fixed = ParameterChoice::Fixed(f64::from(found.f32));
-                spec.parameters.entry(parameter).or_insert(fixed);
-            }
-        }
-    }
-    Ok(spec)
 }
 
 /// Loads the form of a spec.
@@ -159,7 +134,7 @@ impl<'a> Fit<'a> {
 
     fn points_of(
         &self,
-        reference: &Reference,
+        reference: &'static Reference,
         domain: &super::spec::Domain,
         key: &str,
     ) -> Result<Points, FitError> {
@@ -169,7 +144,7 @@ impl<'a> Fit<'a> {
     /// The points that `region` of `effect` gives to fits.
     fn points_in(
         &self,
-        reference: &Reference,
+        reference: &'static Reference,
         effect: &Effect,
         region: &str,
     ) -> Result<Points, FitError> {

@@ -1,6 +1,8 @@
 //! The points and values that a form is fitted to.
 
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
@@ -13,6 +15,10 @@ use crate::table::{Column, Table};
 
 /// Column of a region's points that holds weights.
 const WEIGHT: &str = "weight";
+
+/// Values of references at the fitted points of regions, by reference and region. Both are fixed
+/// when the program is built, and many forms are fitted to the same.
+static KNOWN: Mutex<BTreeMap<(&'static str, &'static str), Vec<f64>>> = Mutex::new(BTreeMap::new());
 
 /// Whether the target carries noise that the residuals can be held against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,7 +55,7 @@ impl Points {
     /// [`FitError::Domain`] where the reference has no value.
     pub fn of_reference(
         spec: &Spec,
-        reference: &Reference,
+        reference: &'static Reference,
         inputs: &[String],
         domain: &Domain,
         key: &str,
@@ -116,9 +122,9 @@ impl Points {
     /// [`FitError::Table`] for a column that is not there and for numbers that are not finite;
     /// [`FitError::Domain`] where the reference has no value.
     pub fn of_region(
-        region: &str,
+        region: &'static str,
         points: &Table,
-        reference: &Reference,
+        reference: &'static Reference,
         inputs: &[String],
         loss: Loss,
     ) -> Result<Self, FitError> {
@@ -136,7 +142,17 @@ impl Points {
             (reference.evaluate)(&point)
                 .map_err(|source| FitError::Domain { reference: reference.name.to_owned(), source })
         };
-        let values = (0..table.rows()).into_par_iter().map(value).collect::<Result<_, _>>()?;
+        let key = (reference.name, region);
+        let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
+        let values = match known {
+            Some(values) => values,
+            None => {
+                let rows = (0..table.rows()).into_par_iter();
+                let values = rows.map(value).collect::<Result<Vec<_>, _>>()?;
+                KNOWN.lock().unwrap_or_else(PoisonError::into_inner).insert(key, values.clone());
+                values
+            }
+        };
         table.columns.push(Column::new("target", "1", values));
         let weight = match table.column(WEIGHT) {
             Some(_) => Weighting::Column(WEIGHT.to_owned()),

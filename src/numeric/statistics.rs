@@ -48,6 +48,13 @@ pub fn percentile(values: &[f64], percent: f64) -> f64 {
     sorted[below] + fraction * (sorted[above] - sorted[below])
 }
 
+/// The largest of `values`, NaN as soon as one is NaN; 0 of none.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |largest: f64, value| {
+        if largest.is_nan() || value.is_nan() { f64::NAN } else { largest.max(value) }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -82,6 +82,11 @@ pub struct TimedReference {
 
 /// Rounds of interleaved timing; the median over rounds is reported.
 const ROUNDS: usize = 9;
+/// Rounds that every form takes part in.
+const LEAST_ROUNDS: usize = 3;
+/// Time on the CPU after which a form takes part in no further round, ns: a slow form's passes are
+/// long against the timer and the scheduler already.
+const ENOUGH_NS: f64 = 1.5e8;
 /// Points per timed pass on the CPU.
 const POINTS: usize = 1 << 14;
 
@@ -126,8 +131,12 @@ fn group_costs(
         .collect();
     let mut wide_ns = vec![Vec::with_capacity(ROUNDS); candidates.len()];
     let mut narrow_ns = vec![Vec::with_capacity(ROUNDS); candidates.len()];
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
         for (at, candidate) in candidates.iter().enumerate() {
+            let spent: f64 = wide_ns[at].iter().chain(&narrow_ns[at]).sum();
+            if round >= LEAST_ROUNDS && spent * POINTS as f64 > ENOUGH_NS {
+                continue;
+            }
             let columns: Vec<&[f64]> = inputs[at].iter().map(Vec::as_slice).collect();
             let shipped = &candidate.shipped;
             wide_ns[at].push(nanoseconds(|| shipped.form.eval_f64(&shipped.constants, &columns))?);

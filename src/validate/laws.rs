@@ -55,8 +55,9 @@ fn verdict(law: &Law, form_name: &str, shipped: &Shipped) -> LawVerdict {
         law.known_violations.iter().find(|(name, _)| *name == form_name || *name == shipped.name);
     let standing = match known {
         _ if violation <= law.tolerance => LawStanding::Holds,
-        Some((_, reason)) => LawStanding::Known((*reason).to_owned()),
-        None => LawStanding::Violated,
+        // A reason for an error excuses no NaN and no infinity.
+        Some((_, reason)) if violation.is_finite() => LawStanding::Known((*reason).to_owned()),
+        _ => LawStanding::Violated,
     };
     LawVerdict {
         law: law.name.to_owned(),

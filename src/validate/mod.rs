@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod candidates;
+pub mod cheapest;
 pub mod cost;
 pub mod curves;
 pub mod family;
@@ -9,7 +10,7 @@ pub mod goals;
 pub mod laws;
 pub mod measured;
 pub mod parity;
-mod regions;
+pub(crate) mod regions;
 pub mod sampling;
 pub mod study;
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::effects::registry::{Effect, Reference, Region};
 use crate::form::Form;
@@ -12,8 +13,36 @@ use crate::validate::accuracy::{Judged, Target};
 /// The points of an effect that a reference takes, and its values there.
 #[derive(Debug, Clone)]
 pub(super) struct Grounds {
-    regions: Vec<(&'static str, Judged)>,
-    hard_cases: Vec<(&'static str, Judged)>,
+    regions: Vec<(&'static str, Arc<Judged>)>,
+    hard_cases: Vec<(&'static str, Arc<Judged>)>,
+}
+
+/// Regions whose points and values are known, by reference and region. Both are fixed when the
+/// program is built, and a reference may take milliseconds, so they are evaluated once per process.
+static KNOWN: Mutex<BTreeMap<(&'static str, &'static str), Arc<Judged>>> =
+    Mutex::new(BTreeMap::new());
+
+/// The points of `region` as f32 numbers, so that all precisions see the same, with the values of
+/// `reference`; none if the region lacks an argument of the reference.
+///
+/// # Errors
+/// If the reference has no value at a point.
+pub(crate) fn judged(
+    region: &'static Region,
+    reference: &'static Reference,
+) -> Result<Option<Arc<Judged>>, ValidateError> {
+    let key = (reference.name, region.name);
+    let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
+    if known.is_some() {
+        return Ok(known);
+    }
+    let points = rounded((region.points)());
+    if !has_arguments(&points, reference) {
+        return Ok(None);
+    }
+    let found = Arc::new(Judged::new(reference, points, region.by, region.yardstick)?);
+    KNOWN.lock().unwrap_or_else(PoisonError::into_inner).insert(key, Arc::clone(&found));
+    Ok(Some(found))
 }
 
 impl Grounds {
@@ -21,16 +50,15 @@ impl Grounds {
     ///
     /// # Errors
     /// If the reference has no value at a point.
-    pub(super) fn of(effect: &Effect, reference: &Reference) -> Result<Self, ValidateError> {
+    pub(super) fn of(
+        effect: &Effect,
+        reference: &'static Reference,
+    ) -> Result<Self, ValidateError> {
         let judged = |regions: &'static [Region]| {
             let mut found = Vec::new();
             for region in regions {
-                let points = rounded((region.points)());
-                if has_arguments(&points, reference) {
-                    found.push((
-                        region.name,
-                        Judged::new(reference, points, region.by, region.yardstick)?,
-                    ));
+                if let Some(judged) = judged(region, reference)? {
+                    found.push((region.name, judged));
                 }
             }
             Ok::<_, ValidateError>(found)
@@ -80,7 +108,7 @@ impl Grounds {
 }
 
 fn served(
-    grounds: &[(&'static str, Judged)],
+    grounds: &[(&'static str, Arc<Judged>)],
     form: &Form,
 ) -> Result<Vec<(&'static str, Target)>, ValidateError> {
     let serving = grounds.iter().filter(|(_, judged)| judged.serves(form));
@@ -104,7 +132,7 @@ impl<'e> Atlas<'e> {
     ///
     /// # Errors
     /// If the reference has no value at a point.
-    pub(super) fn of(&mut self, reference: &Reference) -> Result<&Grounds, ValidateError> {
+    pub(super) fn of(&mut self, reference: &'static Reference) -> Result<&Grounds, ValidateError> {
         Ok(match self.known.entry(reference.name) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => place.insert(Grounds::of(self.effect, reference)?),

@@ -83,6 +83,13 @@ fn classes(column: &Column, cell: &Cell) -> String {
     if matches!(cell.value, Value::Number { .. }) {
         classes.push_str(" number");
     }
+    if let (Value::Text(text), ColumnKind::Text) = (&cell.value, &column.kind) {
+        match text.to_plain().chars().count() {
+            0..=40 => {}
+            41..=120 => classes.push_str(" wide"),
+            _ => classes.push_str(" widest"),
+        }
+    }
     if let Some(highlight) = cell.highlight {
         classes.push(' ');
         classes.push_str(highlight.word());

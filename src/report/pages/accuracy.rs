@@ -1,7 +1,7 @@
 //! Errors per region and precision, laws, and parity with the device.
 
 use super::{Evidence, bare, count, device_notice, no_device, place};
-use crate::effects::registry::Yardstick;
+use crate::effects::registry::{self, Yardstick};
 use crate::report::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
 use crate::validate::accuracy::Accuracy;
 use crate::validate::laws::LawStanding;
@@ -27,7 +27,8 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
             .collect();
         if !rows.is_empty() {
             let caption = format!("Region {}: {}", region.name, region.description);
-            section = section.block(table(caption, &rows));
+            let unit = units(evidence, rows.iter().map(|(name, _)| *name));
+            section = section.block(table(caption, &rows, &unit));
         }
     }
     for set in evidence.effect.hard_cases {
@@ -42,22 +43,38 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
             .collect();
         if !rows.is_empty() {
             let caption = format!("Hard cases ({}): {}", set.name, set.description);
-            section = section.block(table(caption, &rows));
+            let unit = units(evidence, rows.iter().map(|(name, _)| *name));
+            section = section.block(table(caption, &rows, &unit));
         }
     }
     section
 }
 
-fn table(caption: String, rows: &[(&str, &Accuracy)]) -> Table {
+/// Units of the references that fits are judged by in a table.
+fn units<'a>(evidence: &Evidence<'_>, names: impl Iterator<Item = &'a str>) -> String {
+    let mut units: Vec<&str> = Vec::new();
+    for name in names {
+        let fit = evidence.study.fits.iter().find(|fit| bare(&fit.outcome.name) == name);
+        let reference = fit.and_then(|fit| registry::reference(&fit.outcome.target));
+        if let Some((_, reference)) = reference
+            && !units.contains(&reference.unit)
+        {
+            units.push(reference.unit);
+        }
+    }
+    units.join(" or ")
+}
+
+fn table(caption: String, rows: &[(&str, &Accuracy)], unit: &str) -> Table {
     let by_norm = rows.iter().any(|(_, accuracy)| accuracy.yardstick == Yardstick::RelativeL2);
     let mut columns = vec![
         Column::code("fit"),
-        Column::number("max |error|, f64", "1"),
-        Column::number("max |error|, f32", "1"),
-        Column::number("max |error|, device", "1"),
-        Column::number("RMS, f32", "1"),
-        Column::number("bias, f32", "1"),
-        Column::number("p99, f32", "1"),
+        Column::number("max |error|, f64", unit),
+        Column::number("max |error|, f32", unit),
+        Column::number("max |error|, device", unit),
+        Column::number("RMS, f32", unit),
+        Column::number("bias, f32", unit),
+        Column::number("p99, f32", unit),
         Column::number("max relative, f32", "1"),
         Column::text("where (f32)"),
     ];

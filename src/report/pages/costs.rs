@@ -4,6 +4,7 @@ use super::{Evidence, bare, count, device_notice, no_device};
 use crate::effects::registry::Yardstick;
 use crate::report::document::{Cell, Column, Figure, Highlight, Section, Table, Verdict};
 use crate::report::plot::{Axis, Plot, Series};
+use crate::validate::cheapest::{Cheapest, cheapest};
 use crate::validate::cost::{Cost, Costs};
 use crate::validate::goals::{GoalVerdict, goals};
 use crate::validate::measured::Measured;
@@ -58,8 +59,38 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
         ));
     }
     section = section.block(table(costs)).block(references(costs));
+    let least = cheapest(evidence.study, costs);
+    if !least.is_empty() {
+        section = section.block(cheapest_table(&least));
+    }
     let verdicts = goals(evidence.effect, evidence.study, costs);
     if verdicts.is_empty() { section } else { section.block(goal_table(&verdicts)) }
+}
+
+fn cheapest_table(least: &[Cheapest]) -> Table {
+    let mut table = Table::new(
+        "The cheapest fit for an error, region by region, with its cost relative to the baseline in \
+         brackets. Errors in f32 by the yardstick of the region.",
+        vec![
+            Column::text("region"),
+            Column::code("baseline"),
+            Column::text("≤ 10 %"),
+            Column::text("≤ 1 %"),
+            Column::text("≤ 0.1 %"),
+        ],
+    );
+    for one in least {
+        let mut row = vec![Cell::text(one.region.clone()), Cell::text(bare(&one.baseline))];
+        row.extend(one.fits.iter().map(|best| match best {
+            Some((fit, ratio)) => {
+                let ratio = crate::report::document_cell::number(*ratio, 2);
+                Cell::text(format!("`{}` ({ratio}×)", bare(fit)))
+            }
+            None => Cell::text("none"),
+        }));
+        table.push(row);
+    }
+    table
 }
 
 fn goal_table(verdicts: &[GoalVerdict]) -> Table {

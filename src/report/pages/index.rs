@@ -78,12 +78,14 @@ pub fn index_page(effects: &[Evidence<'_>], gates: &[GateLine]) -> Page {
 /// The fits with the smallest and the published error, side by side.
 fn best_section(effects: &[Evidence<'_>]) -> Section {
     let mut table = Table::new(
-        "Fits to references over the first region of their effect, in f32. Cost: on the device, or on f32 lanes where no device was measured.",
+        "Fits to references over the first region in which they are judged, in f32, by the error by \
+         which forms are compared there. Cost: on the device, or on f32 lanes where no device was \
+         measured.",
         vec![
             Column::text("effect"),
             Column::code("fit"),
-            Column::number("max |error|", "1"),
-            Column::number("RMS", "1"),
+            Column::text("error"),
+            Column::number("value", "1"),
             Column::number("cost", "ns"),
         ],
     );
@@ -94,8 +96,8 @@ fn best_section(effects: &[Evidence<'_>]) -> Section {
             table.push(vec![
                 Cell::text(evidence.effect.title),
                 Cell::text(bare(&fit.outcome.name)),
-                Cell::number(accuracy.f32.max_abs, 3),
-                Cell::number(accuracy.f32.rms, 3),
+                Cell::text(accuracy.yardstick.words()),
+                Cell::number(accuracy.headline(), 3),
                 Cell::number_or(cost.map(|cost| cost.nanoseconds()), 3, "not timed"),
             ]);
         }
