@@ -3,4 +3,5 @@
 pub mod exhibit;
 pub mod fresnel;
 pub mod registry;
+pub mod scratch_response;
 pub mod sine_integral;

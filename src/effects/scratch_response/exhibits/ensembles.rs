@@ -1,0 +1,195 @@
+//! Ensembles of scratches in a mirror: what each simplification costs on its own and all together.
+
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha12Rng;
+use rayon::prelude::*;
+
+use super::{axis, columns, series, text};
+use crate::effects::exhibit::{Exhibit, ExhibitCell, ExhibitPlot, ExhibitTable, Stroke};
+use crate::effects::scratch_response::ensemble::{
+    Base, Depth, Ends, Lit, Model, PUBLISHED, REFERENCE, Recipe, Sum, mirror_width, scratches,
+    under_normal_light,
+};
+use crate::effects::scratch_response::surface::{Coherence, Scratch};
+
+/// Scratches per coherence area of the study.
+const DENSITIES: [f64; 6] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
+/// Ensembles per density, and directions per ensemble and kind.
+const ENSEMBLES: u64 = 20;
+const DIRECTIONS: usize = 100;
+const LIGHT: Coherence = Coherence { wavelength_um: 0.55, sigma_um: 60.0 };
+
+/// The models of the study; the reference comes first.
+const MODELS: [(&str, Model); 11] = [
+    ("reference", REFERENCE),
+    ("small angles alone", Model { depth: Depth::SmallAngle, ..REFERENCE }),
+    ("infinite scratches alone", Model { ends: Ends::Infinite, ..REFERENCE }),
+    ("incoherent sum alone", Model { sum: Sum::Incoherent, ..REFERENCE }),
+    ("no cross term alone", Model { base: Base::Added, ..REFERENCE }),
+    ("density blend alone", Model { base: Base::Density, ..REFERENCE }),
+    ("all together (ships)", PUBLISHED),
+    ("all together, energy blend", Model { base: Base::Energy, ..PUBLISHED }),
+    ("matched ends and rho_c (ours)", Model { ends: Ends::Matched, ..PUBLISHED }),
+    (
+        "matched ends, energy blend (ours)",
+        Model { base: Base::Energy, ends: Ends::Matched, ..PUBLISHED },
+    ),
+    (
+        "matched ends, peak blend (ours)",
+        Model { base: Base::Peak, ends: Ends::Matched, ..PUBLISHED },
+    ),
+];
+
+/// Errors of every model at one density and kind of direction.
+#[derive(Debug, Clone, Copy)]
+pub(in super::super) struct EnsembleStudy {
+    /// RMS error over RMS of the reference, by model.
+    pub(in super::super) rms: [f64; MODELS.len()],
+    /// Mean over the mean of the reference, by model.
+    pub(in super::super) mean: [f64; MODELS.len()],
+}
+
+/// Where an ensemble is seen.
+#[derive(Debug, Clone, Copy)]
+enum Seen {
+    /// In the lobe of one of its scratches, beyond the mirror's.
+    Scratch,
+    /// In the mirror's lobe.
+    Mirror,
+}
+
+impl EnsembleStudy {
+    /// In the lobes of scratches.
+    pub(in super::super) fn of_scratches(per_coherence_area: f64, spread_rad: f64) -> Self {
+        Self::seen(per_coherence_area, spread_rad, Seen::Scratch)
+    }
+
+    /// In the lobe of the mirror.
+    pub(in super::super) fn of_mirror(per_coherence_area: f64) -> Self {
+        Self::seen(per_coherence_area, std::f64::consts::PI, Seen::Mirror)
+    }
+
+    fn seen(per_coherence_area: f64, spread_rad: f64, seen: Seen) -> Self {
+        let recipe = Recipe {
+            sigma_um: LIGHT.sigma_um,
+            per_coherence_area,
+            size_um: [0.8, 6.0],
+            length: [1.0, 20.0],
+            spread_rad,
+        };
+        let values: Vec<Vec<[f64; MODELS.len()]>> =
+            (0..ENSEMBLES).into_par_iter().map(|seed| of_ensemble(recipe, seed, seen)).collect();
+        let (mut error, mut total) = ([0.0; MODELS.len()], [0.0; MODELS.len()]);
+        let mut norm = 0.0;
+        for values in values.iter().flatten() {
+            norm += values[0] * values[0];
+            for (i, value) in values.iter().enumerate() {
+                error[i] += (value - values[0]).powi(2);
+                total[i] += value;
+            }
+        }
+        Self { rms: error.map(|e: f64| (e / norm).sqrt()), mean: total.map(|t| t / total[0]) }
+    }
+}
+
+fn of_ensemble(recipe: Recipe, seed: u64, seen: Seen) -> Vec<[f64; MODELS.len()]> {
+    let scratches = scratches(recipe, seed);
+    let lit = Lit::new(&scratches, LIGHT, 2.0);
+    let mut rng = ChaCha12Rng::seed_from_u64(seed + 1000);
+    let models = MODELS.map(|(_, model)| model);
+    (0..DIRECTIONS)
+        .filter_map(|_| under_normal_light(direction(&mut rng, &scratches, seen)))
+        .map(|directions| lit.svbrdf(&models, directions))
+        .collect()
+}
+
+fn direction(rng: &mut ChaCha12Rng, scratches: &[Scratch], seen: Seen) -> [f64; 2] {
+    let width = mirror_width(LIGHT);
+    let mut within = || width * rng.random_range(-1.5..1.5);
+    let (along, other) = (within(), within());
+    match (seen, scratches) {
+        (Seen::Mirror, _) | (_, []) => [along, other],
+        (Seen::Scratch, all) => {
+            let (sin, cos) = all[rng.random_range(0..all.len())].direction_rad.sin_cos();
+            let across = rng.random_range(8.0 * width..0.5) * if rng.random() { 1.0 } else { -1.0 };
+            [along * cos - across * sin, along * sin + across * cos]
+        }
+    }
+}
+
+/// Errors against scratches per coherence area.
+pub(super) fn exhibit() -> Exhibit {
+    let any = std::f64::consts::PI;
+    let brushed = 2.0_f64.to_radians();
+    let scratch = DENSITIES.map(|n| EnsembleStudy::of_scratches(n, any));
+    let parallel = DENSITIES.map(|n| EnsembleStudy::of_scratches(n, brushed));
+    let mirror = DENSITIES.map(EnsembleStudy::of_mirror);
+    Exhibit {
+        title: "Ensembles: each simplification on its own, and all together".into(),
+        text: vec![format!(
+            "Seeded ensembles of {ENSEMBLES} surfaces with {DIRECTIONS} directions each, vertical light of 550 nm, \
+             sigma = 60 um, W and D uniform from 0.8 to 6 um, lengths log-uniform from sigma to 20 sigma, \
+             any orientation or within one degree. A scratch counts if its line passes within sigma of the \
+             shaded point. Errors at a point contain speckle, which a pixel averages; the ratio of means \
+             says what is left after averaging."
+        )],
+        plots: vec![
+            plot("scratch-ensemble-lobes", "In the lobes of scratches", &scratch, &[1, 2, 3, 6, 8]),
+            plot(
+                "scratch-ensemble-mirror",
+                "In the mirror's lobe",
+                &mirror,
+                &[2, 3, 4, 5, 6, 8, 9, 10],
+            ),
+        ],
+        tables: vec![
+            table("In the lobes of scratches of any orientation, beyond the mirror's", &scratch),
+            table("In the lobes of scratches within one degree of each other", &parallel),
+            table("In the mirror's lobe", &mirror),
+        ],
+    }
+}
+
+fn plot(
+    stem: &'static str,
+    title: &str,
+    studies: &[EnsembleStudy],
+    models: &[usize],
+) -> ExhibitPlot {
+    ExhibitPlot {
+        stem,
+        title: format!("{title}: error against scratches per coherence area"),
+        caption: "RMS error over RMS of the reference (full, coherent, finite, cross term).".into(),
+        x: axis("scratches within sigma", "1", true),
+        y: axis("relative RMS error", "1", true),
+        series: models
+            .iter()
+            .map(|&i| {
+                let points = DENSITIES.iter().zip(studies).map(|(n, s)| (*n, s.rms[i])).collect();
+                let stroke = if i == 6 { Stroke::Strong } else { Stroke::Line };
+                series(MODELS[i].0, stroke, points)
+            })
+            .collect(),
+    }
+}
+
+fn table(caption: &str, studies: &[EnsembleStudy]) -> ExhibitTable {
+    let mut titles = columns(&[("model", "")]);
+    titles.extend(DENSITIES.iter().map(|n| (format!("RMS, {n} per area"), "1")));
+    titles.extend(DENSITIES.iter().map(|n| (format!("mean, {n} per area"), "1")));
+    let rows = (1..MODELS.len())
+        .map(|i| {
+            let rms = studies.iter().map(|study| study.rms[i]);
+            let mean = studies.iter().map(|study| study.mean[i]);
+            [text(MODELS[i].0)]
+                .into_iter()
+                .chain(rms.chain(mean).map(ExhibitCell::Number))
+                .collect()
+        })
+        .collect();
+    ExhibitTable {
+        caption: format!("{caption}: relative RMS error, and mean over the mean of the reference"),
+        columns: titles,
+        rows,
+    }
+}

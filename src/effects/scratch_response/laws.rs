@@ -1,0 +1,181 @@
+//! Properties that a form should have whatever its error.
+
+use std::f64::consts::PI;
+
+use super::hard_cases;
+use super::regions::Row;
+use crate::effects::registry::{FormValues, Law};
+
+const SINGLE: &[&str] = &["scratch_reflectance", "scratched_mirror_reflectance"];
+
+const WIDE: &str = "1 - rho turns negative for scratches that are wide over sigma: rho has to be clamped to 1 by \
+                    whoever sums it over scratches";
+
+const PEAK: &str =
+    "keeps energy on average over offsets, not for each: rho_c has the amplitude window";
+
+/// Laws of the effect.
+pub(super) const LAWS: &[Law] = &[
+    Law {
+        name: "non-negative",
+        description: "Finite and never negative: largest magnitude of a negative value over the hard cases.",
+        violation: |form| worst(values(form, &hard_cases::rows()).iter().map(|v| -f64::from(*v))),
+        tolerance: 0.0,
+        references: SINGLE,
+        known_violations: &[
+            ("scratch_response/published_mirror", WIDE),
+            ("scratch_response/density_blend", WIDE),
+            ("scratch_response/peak_blend", WIDE),
+            ("scratch_response/matched_mirror", WIDE),
+            ("scratch_response/energy_blend", WIDE),
+        ],
+    },
+    Law {
+        name: "non-negative pair",
+        description: "The same for two scratches.",
+        violation: |form| {
+            worst(form(&columns(&hard_cases::rows(), &PAIR)).iter().map(|v| -f64::from(*v)))
+        },
+        tolerance: 0.0,
+        references: &["scratch_pair_reflectance"],
+        known_violations: &[],
+    },
+    Law {
+        name: "non-negative density",
+        description: "The same for the density.",
+        violation: |form| {
+            let rows = hard_cases::rows();
+            let of = |taken: &[usize]| form(&columns(&rows, taken));
+            let values = first_defined([of(&DENSITY[..3]), of(&DENSITY)]);
+            worst(values.iter().map(|v| -f64::from(*v)))
+        },
+        tolerance: 0.0,
+        references: &["scratch_density"],
+        known_violations: &[],
+    },
+    Law {
+        name: "even across",
+        description: "For a scratch through the shaded point xi_2 and -xi_2 give the same value to the bit: \
+                      largest difference over the hard cases.",
+        violation: asymmetry,
+        tolerance: 0.0,
+        references: SINGLE,
+        known_violations: &[],
+    },
+    Law {
+        name: "energy",
+        description: "An infinite scratch in a mirror reflects 1 over the plane of direction cosines at a fixed \
+                      depth phase: largest |integral - 1| over four depths at offsets of 0 and 0.7 sigma, for \
+                      W = sigma/20. The integral ends at 60 lobes, which leaves out 2e-4.",
+        violation: energy_error,
+        tolerance: 1e-3,
+        references: &["scratched_mirror_reflectance"],
+        known_violations: &[
+            ("scratch_response/published_mirror", "rho_c does not know the depth"),
+            ("scratch_response/density_blend", "rho_c does not know the depth"),
+            ("scratch_response/superposed", "nothing is taken from the mirror"),
+            ("scratch_response/peak_blend", PEAK),
+            ("scratch_response/matched_mirror", PEAK),
+        ],
+    },
+];
+
+/// Columns of forms of one scratch: the longest list; shorter signatures leave out the depth phase
+/// (`mu_sum` or `mu_o`, either eighth), the ends, or both.
+const ONE: [usize; 10] = [0, 1, 2, 3, 4, 5, 6, 8, 9, 7];
+const PAIR: [usize; 12] = [0, 1, 2, 3, 4, 5, 6, 7, 11, 12, 13, 14];
+const DENSITY: [usize; 5] = [0, 3, 6, 8, 9];
+
+fn columns(rows: &[Row], taken: &[usize]) -> Vec<Vec<f32>> {
+    taken.iter().map(|&i| rows.iter().map(|row| row[i] as f32).collect()).collect()
+}
+
+/// Values of a form of one scratch, whichever of the signatures it has.
+fn values(form: FormValues, rows: &[Row]) -> Vec<f32> {
+    let of = |taken: &[usize]| form(&columns(rows, taken));
+    first_defined([of(&ONE), of(&ONE[..9]), of(&[0, 1, 2, 3, 4, 5, 6, 7]), of(&ONE[..7])])
+}
+
+/// The first that is not all NaN; a form answers NaN to columns that are not its own.
+fn first_defined<const N: usize>(candidates: [Vec<f32>; N]) -> Vec<f32> {
+    let defined = candidates.into_iter().find(|values| values.iter().any(|v| !v.is_nan()));
+    defined.unwrap_or_else(|| vec![f32::NAN])
+}
+
+fn asymmetry(form: FormValues) -> f64 {
+    let central: Vec<Row> = hard_cases::rows()
+        .into_iter()
+        .map(|mut row| {
+            row[6] = 0.0;
+            row
+        })
+        .collect();
+    let mirrored: Vec<Row> = central
+        .iter()
+        .map(|row| {
+            let mut row = *row;
+            row[5] = -row[5];
+            row
+        })
+        .collect();
+    let (there, back) = (values(form, &central), values(form, &mirrored));
+    worst(there.iter().zip(&back).map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs()))
+}
+
+/// Largest |∫ f_r dξ − 1|: midpoints in both directions, fine across the mirror, by lobes beyond.
+fn energy_error(form: FormValues) -> f64 {
+    const SIGMA: f64 = 60.0;
+    const WIDTH: f64 = 3.0;
+    const WAVELENGTH: f64 = 0.55;
+    let unit = WAVELENGTH / (2.0 * PI * SIGMA);
+    // Across: (ξ₂, step). The mirror is over at 7 units; lobes are λ/W = 126 units wide.
+    let mut across: Vec<(f64, f64)> = midpoints(0.0, 7.0 * unit, 56).collect();
+    across.extend(midpoints(7.0 * unit, 60.0 * WAVELENGTH / WIDTH, 1440));
+    let along: Vec<(f64, f64)> = midpoints(-4.0 * unit, 4.0 * unit, 16).collect();
+    let cases = [0.0, WAVELENGTH / 4.0, WAVELENGTH / 3.0, WAVELENGTH / 2.0];
+    let cases = cases.iter().flat_map(|&depth| [(depth, 0.0), (depth, 0.7 * SIGMA)]);
+    worst(cases.map(|(depth, offset)| {
+        let mut rows = Vec::new();
+        let mut weights = Vec::new();
+        for &(y, height) in &across {
+            for &(x, width) in &along {
+                for side in [1.0, -1.0] {
+                    let mut row = [0.0; 15];
+                    row[..8].copy_from_slice(&[
+                        WIDTH,
+                        depth,
+                        WAVELENGTH,
+                        SIGMA,
+                        x,
+                        side * y,
+                        offset,
+                        2.0,
+                    ]);
+                    (row[8], row[9]) = (-1e6, 1e6);
+                    rows.push(row);
+                    weights.push(width * height);
+                }
+            }
+        }
+        let values = values(form, &rows);
+        if values.len() != weights.len() {
+            return f64::NAN;
+        }
+        let products = values.iter().zip(&weights).map(|(v, w)| f64::from(*v) * w);
+        (crate::numeric::statistics::sum(products) - 1.0).abs()
+    }))
+}
+
+/// Midpoints of `count` equal steps over [from, to], each with the step.
+fn midpoints(from: f64, to: f64, count: u32) -> impl Iterator<Item = (f64, f64)> {
+    let step = (to - from) / f64::from(count);
+    (0..count).map(move |i| (from + (f64::from(i) + 0.5) * step, step))
+}
+
+/// Largest violation, 0 if none is positive; NaN if a value is not finite, so that it cannot pass.
+fn worst(violations: impl Iterator<Item = f64>) -> f64 {
+    violations.fold(
+        0.0,
+        |worst, v| if v.is_finite() && !f64::is_nan(worst) { v.max(worst) } else { f64::NAN },
+    )
+}

@@ -1,0 +1,230 @@
+//! Where the forms are judged: what scenes reach, with and without ends, and the neighbourhood of the
+//! mirror direction. Every value is an f32, so that form and reference see the same point.
+
+use std::f64::consts::PI;
+
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha12Rng;
+
+use crate::effects::registry::{Region, Yardstick};
+use crate::table::{Column, Table};
+
+/// Radius of the coherence area in the paper, µm.
+const SIGMA_UM: f64 = 60.0;
+/// Draws per wavelength.
+const DRAWS: usize = 400;
+
+/// Regions of the effect.
+pub(super) const REGIONS: &[Region] = &[
+    Region {
+        name: "visible",
+        description: "Wavelengths of 380 to 780 nm in nine groups, W and D log-uniform from 0.3 to 20 um, \
+                      incidence to 80 degrees, half of the directions inside eight lobes and half over \
+                      all exitances, xi_1 normal with the deviation 1/(sigma k); offsets to 2 sigma, one \
+                      end inside the coherence area in every second draw.",
+        points: || draws(1, visible),
+        fitted: Some(|| draws(101, visible)),
+        by: Some("wavelength_um"),
+        yardstick: Yardstick::RelativeL2,
+    },
+    Region {
+        name: "long",
+        description: "Scratches without an end inside the coherence area, W and D uniform from 0.8 to 6 um \
+                      (velinov2018 section 5), otherwise as visible: what is left is the depth phase.",
+        points: || draws(2, long),
+        fitted: Some(|| draws(102, long)),
+        by: Some("wavelength_um"),
+        yardstick: Yardstick::RelativeL2,
+    },
+    Region {
+        name: "mirror",
+        description: "The neighbourhood of the mirror direction: both parts of xi normal with the deviation \
+                      1/(sigma k), scratches without an end, otherwise as long: blends and cross terms.",
+        points: || draws(3, mirror),
+        fitted: Some(|| draws(103, mirror)),
+        by: Some("wavelength_um"),
+        yardstick: Yardstick::RelativeL2,
+    },
+    Region {
+        name: "mirror, ends",
+        description: "As mirror, with one end of every second scratch inside the coherence area.",
+        points: || draws(5, mirror_with_ends),
+        fitted: Some(|| draws(105, mirror_with_ends)),
+        by: Some("wavelength_um"),
+        yardstick: Yardstick::RelativeL2,
+    },
+    Region {
+        name: "pair",
+        description: "Two infinite scratches with W and D uniform from 0.8 to 6 um, near-parallel (within 3 \
+                      degrees) in every second draw, seen in directions that light the first one.",
+        points: || pair_draws(4),
+        fitted: Some(|| pair_draws(104)),
+        by: Some("wavelength_um"),
+        yardstick: Yardstick::RelativeL2,
+    },
+];
+
+/// Names and units of the columns, in the order of [`Row`].
+pub(super) const COLUMNS: [(&str, &str); 15] = [
+    ("width_um", "um"),
+    ("depth_um", "um"),
+    ("wavelength_um", "um"),
+    ("sigma_um", "um"),
+    ("xi_along", "1"),
+    ("xi_across", "1"),
+    ("offset_um", "um"),
+    ("mu_sum", "1"),
+    ("begin_um", "um"),
+    ("end_um", "um"),
+    ("mu_o", "1"),
+    ("second_width_um", "um"),
+    ("second_depth_um", "um"),
+    ("second_offset_um", "um"),
+    ("turn_rad", "rad"),
+];
+
+/// A point: values of [`COLUMNS`].
+pub(super) type Row = [f64; 15];
+
+/// Rows as a table of the columns that `kept` holds, rounded to f32.
+pub(super) fn table(rows: &[Row], kept: impl Fn(&str) -> bool, origin: &str) -> Table {
+    let columns = COLUMNS
+        .iter()
+        .enumerate()
+        .filter(|(_, (name, _))| kept(name))
+        .map(|(i, (name, unit))| Column {
+            name: (*name).into(),
+            unit: (*unit).into(),
+            values: rows.iter().map(|row| f64::from(row[i] as f32)).collect(),
+            uncertainty: None,
+        })
+        .collect();
+    Table { columns, origin: format!("scratch_response: {origin}") }
+}
+
+/// A column of the second scratch of a pair.
+fn of_second(name: &str) -> bool {
+    name.starts_with("second") || name.starts_with("turn")
+}
+
+/// A column that a pair of infinite scratches does not have.
+fn of_ends(name: &str) -> bool {
+    ["begin_um", "end_um", "mu_o"].contains(&name)
+}
+
+fn draws(seed: u64, draw: fn(&mut ChaCha12Rng, f64) -> Row) -> Table {
+    table(&rows(seed, draw), |name| !of_second(name), "seeded draws")
+}
+
+fn pair_draws(seed: u64) -> Table {
+    table(&rows(seed, pair), |name| !of_ends(name), "seeded draws of pairs")
+}
+
+/// Draws at nine wavelengths.
+fn rows(seed: u64, draw: fn(&mut ChaCha12Rng, f64) -> Row) -> Vec<Row> {
+    let mut rng = ChaCha12Rng::seed_from_u64(seed);
+    let wavelengths = (0..9).map(|i| 0.38 + 0.05 * f64::from(i));
+    wavelengths.flat_map(|um| (0..DRAWS).map(move |_| um)).map(|um| draw(&mut rng, um)).collect()
+}
+
+/// Standard normal, by the sum of twelve uniforms: its tails end at 6.
+fn normal(rng: &mut ChaCha12Rng) -> f64 {
+    (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0
+}
+
+fn visible(rng: &mut ChaCha12Rng, wavelength_um: f64) -> Row {
+    let size = |rng: &mut ChaCha12Rng| 0.3 * (20.0_f64 / 0.3).powf(rng.random());
+    let (width, depth) = (size(rng), size(rng));
+    let ends = ends_of_every_second(rng);
+    row(rng, wavelength_um, [width, depth], ends, lobe_or_anywhere)
+}
+
+/// Ends over σ: none inside the coherence area, or one.
+fn ends_of_every_second(rng: &mut ChaCha12Rng) -> [f64; 2] {
+    if rng.random() {
+        [-10.0, 10.0]
+    } else {
+        let begin = rng.random_range(-2.0..2.0);
+        [begin, begin + 0.1 * 100_f64.powf(rng.random())]
+    }
+}
+
+fn long(rng: &mut ChaCha12Rng, wavelength_um: f64) -> Row {
+    let sizes = [rng.random_range(0.8..6.0), rng.random_range(0.8..6.0)];
+    row(rng, wavelength_um, sizes, [-10.0, 10.0], lobe_or_anywhere)
+}
+
+fn mirror(rng: &mut ChaCha12Rng, wavelength_um: f64) -> Row {
+    let sizes = [rng.random_range(0.8..6.0), rng.random_range(0.8..6.0)];
+    row(rng, wavelength_um, sizes, [-10.0, 10.0], within_mirror)
+}
+
+fn mirror_with_ends(rng: &mut ChaCha12Rng, wavelength_um: f64) -> Row {
+    let sizes = [rng.random_range(0.8..6.0), rng.random_range(0.8..6.0)];
+    let ends = ends_of_every_second(rng);
+    row(rng, wavelength_um, sizes, ends, within_mirror)
+}
+
+/// ξ₂ within the lobe of the mirror.
+fn within_mirror(rng: &mut ChaCha12Rng, wavelength_um: f64, _: f64) -> f64 {
+    normal(rng) * wavelength_um / (2.0 * PI * SIGMA_UM)
+}
+
+fn pair(rng: &mut ChaCha12Rng, wavelength_um: f64) -> Row {
+    let mut row = long(rng, wavelength_um);
+    row[11] = rng.random_range(0.8..6.0);
+    row[12] = rng.random_range(0.8..6.0);
+    row[13] = rng.random_range(-2.0..2.0) * SIGMA_UM;
+    let most = if rng.random() { PI / 60.0 } else { PI };
+    row[14] = rng.random_range(-most..most);
+    row
+}
+
+/// ξ₂ inside eight lobes or over every exitance.
+fn lobe_or_anywhere(rng: &mut ChaCha12Rng, wavelength_um: f64, width_um: f64) -> f64 {
+    if rng.random() {
+        rng.random_range(-4.0..4.0) * wavelength_um / width_um
+    } else {
+        rng.random_range(-1.9..1.9)
+    }
+}
+
+/// A row with the directions drawn until both are above the surface; σ is the paper's.
+fn row(
+    rng: &mut ChaCha12Rng,
+    wavelength_um: f64,
+    [width, depth]: [f64; 2],
+    [begin, end]: [f64; 2],
+    across: fn(&mut ChaCha12Rng, f64, f64) -> f64,
+) -> Row {
+    let offset = rng.random_range(-2.0..2.0) * SIGMA_UM;
+    loop {
+        let along = normal(rng) * wavelength_um / (2.0 * PI * SIGMA_UM);
+        let across = across(rng, wavelength_um, width);
+        let (elevation, azimuth) =
+            (rng.random_range(0.0..4.0 * PI / 9.0), rng.random_range(-PI..PI));
+        let (x, y) = (elevation.sin() * azimuth.cos(), elevation.sin() * azimuth.sin());
+        let beyond = (along - x).powi(2) + (across - y).powi(2);
+        if beyond < 0.99 {
+            let mu_o = (1.0 - beyond).sqrt();
+            let ends = [begin * SIGMA_UM, end * SIGMA_UM];
+            return [
+                width,
+                depth,
+                wavelength_um,
+                SIGMA_UM,
+                along,
+                across,
+                offset,
+                mu_o + elevation.cos(),
+                ends[0],
+                ends[1],
+                mu_o,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+            ];
+        }
+    }
+}
