@@ -1,6 +1,7 @@
 //! Effects: one physical thing each, with its reference, its forms, its hard cases and its laws.
 
 pub mod exhibit;
+pub mod footprint;
 pub mod fresnel;
 pub mod registry;
 pub mod scratch_response;

@@ -292,5 +292,9 @@ pub fn family(name: &str) -> Option<(&'static Effect, &'static Family)> {
 }
 
 /// Every effect. To add one: its folder, and a line here.
-pub const EFFECTS: &[&Effect] =
-    &[&super::sine_integral::EFFECT, &super::fresnel::EFFECT, &super::scratch_response::EFFECT];
+pub const EFFECTS: &[&Effect] = &[
+    &super::sine_integral::EFFECT,
+    &super::fresnel::EFFECT,
+    &super::scratch_response::EFFECT,
+    &super::footprint::EFFECT,
+];

@@ -1,0 +1,218 @@
+//! Properties that a mean over a footprint has, whatever the error of a form.
+
+use super::hard_cases::{HALF_EXTENTS, offsets};
+use crate::effects::registry::{FormValues, Law};
+
+/// References of infinite scratches.
+const INFINITE: &[&str] = &["footprint_response", "footprint_coverage"];
+
+/// Laws of the effect.
+pub(super) const LAWS: &[Law] = &[
+    Law {
+        name: "even",
+        description: "the mean depends on |s|: largest |g(h, s) - g(h, -s)| over the hard cases, \
+                      0 to the bit",
+        violation: oddness,
+        tolerance: 0.0,
+        references: INFINITE,
+        known_violations: &[],
+    },
+    Law {
+        name: "range",
+        description: "a mean of values in [0, 1] is in [0, 1]: largest excess over h to 1000. The \
+                      tolerance is 1 %: fitted constants may pass 1 by their own error at h = 0",
+        violation: excess,
+        tolerance: 0.01,
+        references: INFINITE,
+        known_violations: &[
+            ("footprint/eq16", THIN),
+            ("footprint/eq16_printed", THIN),
+            ("footprint/blend_half_extent", "1.27 at h = 0.5, s = 0: the chord exceeds 1"),
+            ("footprint/coverage_blend_half_extent", "the chord exceeds 1 below h = 1.6"),
+            ("footprint/soft_chord_camera", CAMERA),
+            ("footprint/blend_area", THIN),
+            ("footprint/coverage_blend_area", "the chord exceeds 1 below h = 1.6"),
+            ("footprint/coverage_eq18", "1.6/h at s = 0, without bound for small footprints"),
+        ],
+    },
+    Law {
+        name: "falls",
+        description: "the mean falls with |s|: largest rise over 400 steps to h + 6. The tolerance \
+                      is 4 ulp of 1 in f32",
+        violation: largest_rise,
+        tolerance: 5e-7,
+        references: INFINITE,
+        known_violations: &[],
+    },
+    Law {
+        name: "point footprint",
+        description: "for h -> 0 the response is exp(-s^2): largest difference at h = 0 and 0.001. \
+                      The tolerance is 1 %",
+        violation: |form| point_footprint(form, 1.0),
+        tolerance: 0.01,
+        references: &["footprint_response"],
+        known_violations: &[
+            ("footprint/eq16_printed", "1/pi of it: the missing factor pi"),
+            ("footprint/soft_chord_camera", CAMERA),
+        ],
+    },
+    Law {
+        name: "point footprint (coverage)",
+        description: "for h -> 0 the coverage is exp(-s^2/2): largest difference at h = 0 and \
+                      0.001. The tolerance is 1 %",
+        violation: |form| point_footprint(form, 0.5),
+        tolerance: 0.01,
+        references: &["footprint_coverage"],
+        known_violations: &[("footprint/coverage_eq18", "1.6/h, and 0 beside the footprint")],
+    },
+    Law {
+        name: "large footprint",
+        description: "for large h the response is 2/(sqrt(pi) h) times the chord: largest relative \
+                      difference for |s| <= 0.9 h, h = 1000 and 5000. The tolerance is 0.5 %",
+        violation: |form| large_footprint(form, std::f64::consts::FRAC_2_SQRT_PI),
+        tolerance: 0.005,
+        references: &["footprint_response"],
+        known_violations: &[("footprint/matched_gaussian", GAUSSIAN)],
+    },
+    Law {
+        name: "large footprint (coverage)",
+        description: "for large h the coverage is sqrt(8/pi)/h times the chord: largest relative \
+                      difference for |s| <= 0.9 h, h = 1000 and 5000. The tolerance is 0.5 %",
+        violation: |form| large_footprint(form, (8.0 / std::f64::consts::PI).sqrt()),
+        tolerance: 0.005,
+        references: &["footprint_coverage"],
+        known_violations: &[("footprint/coverage_matched_gaussian", GAUSSIAN)],
+    },
+];
+
+const THIN: &str = "a thin footprint of large area: alpha is 1 and the chord exceeds 1";
+
+const CAMERA: &str = "fitted where cameras are, which see few footprints below h = 0.3";
+
+const GAUSSIAN: &str =
+    "a Gaussian stays one: 25 % too high at the centre of a chord, 44 % off at 0.9 h";
+
+/// Values of a form that takes (h, s), or with them A_P/A_C, here of a circle and of an ellipse 8
+/// times as long as wide.
+fn values(form: FormValues<'_>, h: &[f32], s: &[f32]) -> Vec<Vec<f32>> {
+    let plain = form(&[h.to_vec(), s.to_vec()]);
+    if !h.is_empty() && plain.iter().all(|v| v.is_nan()) {
+        let with_area = |elongation: f32| {
+            let area_ratio = h.iter().map(|h| elongation * h * h).collect();
+            form(&[h.to_vec(), s.to_vec(), area_ratio])
+        };
+        vec![with_area(1.0), with_area(8.0)]
+    } else {
+        vec![plain]
+    }
+}
+
+/// Largest `violation`, 0 if none is positive; infinite if a value is not a number or there is none.
+fn worst(violations: impl IntoIterator<Item = f64>) -> f64 {
+    let largest = |worst: f64, v: f64| if v.is_nan() { f64::INFINITY } else { worst.max(v) };
+    let mut violations = violations.into_iter().peekable();
+    if violations.peek().is_none() { f64::INFINITY } else { violations.fold(0.0, largest) }
+}
+
+fn hard_points() -> (Vec<f32>, Vec<f32>) {
+    let pairs = HALF_EXTENTS.iter().flat_map(|&h| offsets(h).into_iter().map(move |s| (h, s)));
+    pairs.map(|(h, s)| (h as f32, s as f32)).unzip()
+}
+
+fn oddness(form: FormValues<'_>) -> f64 {
+    let (h, s) = hard_points();
+    let mirrored: Vec<f32> = s.iter().map(|s| -s).collect();
+    let (here, there) = (values(form, &h, &s), values(form, &h, &mirrored));
+    let difference = |(a, b): (&f32, &f32)| f64::from((a - b).abs());
+    worst(here.iter().flatten().zip(there.iter().flatten()).map(difference))
+}
+
+fn excess(form: FormValues<'_>) -> f64 {
+    let (mut h, mut s) = hard_points();
+    // Centres of footprints of every size.
+    h.extend((0..=600).map(|i| 0.01 * 10_f32.powf(i as f32 / 120.0)));
+    s.resize(h.len(), 0.0);
+    let found = values(form, &h, &s);
+    worst(found.iter().flatten().map(|&v| f64::from(v - 1.0).max(f64::from(-v))))
+}
+
+fn largest_rise(form: FormValues<'_>) -> f64 {
+    const STEPS: usize = 400;
+    let mut worst_of_all = Vec::new();
+    for h in HALF_EXTENTS {
+        let s: Vec<f32> =
+            (0..=STEPS).map(|i| ((h + 6.0) * i as f64 / STEPS as f64) as f32).collect();
+        for found in values(form, &vec![h as f32; s.len()], &s) {
+            worst_of_all
+                .push(worst(found.windows(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0]))));
+        }
+    }
+    worst(worst_of_all)
+}
+
+/// Largest |g(h, s) − exp(−`rate` s²)| at tiny h.
+fn point_footprint(form: FormValues<'_>, rate: f64) -> f64 {
+    let s: Vec<f32> = (0..=100).map(|i| 0.05 * i as f32).collect();
+    let differences = [0.0_f32, 1e-3].into_iter().flat_map(|h| {
+        let found = values(form, &vec![h; s.len()], &s);
+        let difference = |(v, s): (f32, f32)| {
+            let s = f64::from(s);
+            (f64::from(v) - core_math::exp(-rate * s * s)).abs()
+        };
+        let all = found.into_iter().flat_map(|f| f.into_iter().zip(s.clone()).map(difference));
+        all.collect::<Vec<_>>()
+    });
+    worst(differences)
+}
+
+/// Largest |g(h, s)/(`centre`/h √(1 − s²/h²)) − 1| at large h.
+fn large_footprint(form: FormValues<'_>, centre: f64) -> f64 {
+    let differences = [1000.0_f32, 5000.0].into_iter().flat_map(|h| {
+        let s: Vec<f32> = (0..=90).map(|i| 0.01 * i as f32 * h).collect();
+        let found = values(form, &vec![h; s.len()], &s);
+        let difference = |(v, s): (f32, f32)| {
+            let (h, s) = (f64::from(h), f64::from(s));
+            let limit = centre * ((h - s) * (h + s)).sqrt() / (h * h);
+            (f64::from(v) / limit - 1.0).abs()
+        };
+        let all = found.into_iter().flat_map(|f| f.into_iter().zip(s.clone()).map(difference));
+        all.collect::<Vec<_>>()
+    });
+    worst(differences)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::reference::response;
+    use super::*;
+
+    fn exact(inputs: &[Vec<f32>]) -> Vec<f32> {
+        match inputs {
+            [h, s] => h
+                .iter()
+                .zip(s)
+                .map(|(&h, &s)| response(h.into(), s.into()).expect("in the domain") as f32)
+                .collect(),
+            _ => vec![f32::NAN],
+        }
+    }
+
+    #[test]
+    fn the_exact_response_keeps_every_law() {
+        for law in LAWS.iter().filter(|law| law.references.contains(&"footprint_response")) {
+            let violation = (law.violation)(&exact);
+            println!("{}: {violation:e}", law.name);
+            assert!(violation <= law.tolerance, "{}: {violation:e}", law.name);
+        }
+    }
+
+    #[test]
+    fn forms_that_break_them_are_found() {
+        let tilted = |inputs: &[Vec<f32>]| inputs[1].iter().map(|s| 1.1 + 0.1 * s).collect();
+        for law in LAWS {
+            assert!((law.violation)(&tilted) > law.tolerance, "{}", law.name);
+            assert!((law.violation)(&|_| vec![f32::NAN]) > law.tolerance, "{}", law.name);
+            assert!((law.violation)(&|_| Vec::new()) > law.tolerance, "{}", law.name);
+        }
+    }
+}
