@@ -1,5 +1,6 @@
 //! Effects: one physical thing each, with its reference, its forms, its hard cases and its laws.
 
+pub mod area_light;
 pub mod exhibit;
 pub mod footprint;
 pub mod fresnel;

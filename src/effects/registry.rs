@@ -297,4 +297,5 @@ pub const EFFECTS: &[&Effect] = &[
     &super::fresnel::EFFECT,
     &super::scratch_response::EFFECT,
     &super::footprint::EFFECT,
+    &super::area_light::EFFECT,
 ];

@@ -1,0 +1,146 @@
+//! Properties that a form of the band integral should have whatever its error.
+
+use std::f64::consts::{PI, TAU};
+
+use super::REFERENCE;
+use super::hard_cases::hard_cases;
+use crate::effects::registry::{FormValues, Law};
+
+const REFERENCES: &[&str] = &[REFERENCE.name];
+
+/// What every form of eq. 27 as printed violates for one reason.
+const CANCELS: &str =
+    "differences of values near pi: an error of 1e-7 to 1e-6 exceeds a far or narrow band";
+
+/// Swapping the bounds changes the sign.
+pub(crate) const ANTISYMMETRIC: Law = Law {
+    name: "antisymmetric",
+    description: "B(x1, x0) = -B(x0, x1) to the bit, so that B(x, x) = 0: largest sum over the hard bands, \
+                  their bounds taken as bands of no width among them.",
+    violation: antisymmetry,
+    tolerance: 0.0,
+    references: REFERENCES,
+    known_violations: &[],
+};
+
+/// The integrand is a square.
+pub(crate) const POSITIVE: Law = Law {
+    name: "positive",
+    description: "B > 0 for x0 < x1: share of the hard bands wider than 1e-30 on which it is not.",
+    violation: not_positive,
+    tolerance: 0.0,
+    references: REFERENCES,
+    known_violations: &[
+        ("area_light/band_printed", CANCELS),
+        ("area_light/band_printed_small", CANCELS),
+        ("area_light/band_printed_medium", CANCELS),
+        ("area_light/band_printed_lean", CANCELS),
+        ("area_light/band_printed_large", CANCELS),
+    ],
+};
+
+/// The integrand is even.
+pub(crate) const EVEN: Law = Law {
+    name: "even",
+    description: "B(-x1, -x0) = B(x0, x1) to the bit: largest difference over the hard bands.",
+    violation: unevenness,
+    tolerance: 0.0,
+    references: REFERENCES,
+    known_violations: &[],
+};
+
+/// A light cut in two gives what it gave whole.
+pub(crate) const ADDITIVE: Law = Law {
+    name: "additive",
+    description: "B(a, b) + B(b, c) = B(a, c): largest relative difference for lobes and half lobes side by \
+                  side, to 2000 pi; the seam that a light cut in two would show. The tolerance is the error \
+                  asked of lobes; eq. 27 as printed is a difference of one primitive, and its seam is rounding.",
+    violation: seam,
+    tolerance: 1e-3,
+    references: REFERENCES,
+    known_violations: &[(
+        "area_light/band_lean",
+        "beyond one period it is good to 7e-3, not to 1e-3",
+    )],
+};
+
+/// No light receives more than the whole lobe holds.
+pub(crate) const TOTAL: Law = Law {
+    name: "total",
+    description: "|B| <= 2 pi, the integral over the whole axis: largest excess over bands across 0, to \
+                  |x| = 1e5. The tolerance is 1e-3, as that of the lobes.",
+    violation: excess_over_total,
+    tolerance: 1e-3,
+    references: REFERENCES,
+    known_violations: &[],
+};
+
+/// The hard bands.
+fn bands() -> [Vec<f32>; 2] {
+    let table = hard_cases();
+    [0, 1].map(|at| table.columns[at].values.iter().map(|&x| x as f32).collect())
+}
+
+fn antisymmetry(form: FormValues) -> f64 {
+    let [mut x0, mut x1] = bands();
+    let bounds = x0.clone();
+    x0.extend(&bounds);
+    x1.extend(&bounds);
+    let swapped = form(&[x1.clone(), x0.clone()]);
+    let values = form(&[x0, x1]);
+    worst(values.iter().zip(&swapped).map(|(a, b)| (f64::from(*a) + f64::from(*b)).abs()))
+}
+
+fn unevenness(form: FormValues) -> f64 {
+    let [x0, x1] = bands();
+    let negative = |column: &[f32]| column.iter().map(|x| -x).collect::<Vec<f32>>();
+    let mirrored = form(&[negative(&x1), negative(&x0)]);
+    let values = form(&[x0, x1]);
+    worst(values.iter().zip(&mirrored).map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs()))
+}
+
+fn not_positive(form: FormValues) -> f64 {
+    let [x0, x1] = bands();
+    let values = form(&[x0.clone(), x1.clone()]);
+    let wide = |a: f32, b: f32| (f64::from(b) - f64::from(a)).abs() > 1e-30;
+    let judged: Vec<f32> = x0
+        .iter()
+        .zip(&x1)
+        .zip(&values)
+        .filter(|((a, b), _)| wide(**a, **b))
+        .map(|((a, b), v)| if a < b { *v } else { -*v })
+        .collect();
+    let failed = judged.iter().filter(|v| v.is_nan() || **v <= 0.0).count();
+    failed as f64 / judged.len() as f64
+}
+
+fn seam(form: FormValues) -> f64 {
+    let at = |k: u32| (PI * f64::from(k)) as f32;
+    let parts = (1..=2000).flat_map(|k| [(k - 1, k, k + 1), (k - 1, k, k + 2)]);
+    let (mut a, mut b, mut c) = (Vec::new(), Vec::new(), Vec::new());
+    for (from, cut, to) in parts {
+        a.push(at(from));
+        b.push(at(cut));
+        c.push(at(to));
+    }
+    let first = form(&[a.clone(), b.clone()]);
+    let second = form(&[b, c.clone()]);
+    let whole = form(&[a, c]);
+    worst(first.iter().zip(&second).zip(&whole).map(|((p, q), w)| {
+        let (parts, whole) = (f64::from(*p) + f64::from(*q), f64::from(*w));
+        if parts == whole { 0.0 } else { ((parts - whole) / whole).abs() }
+    }))
+}
+
+fn excess_over_total(form: FormValues) -> f64 {
+    let reach: Vec<f32> =
+        (0..2000).map(|i| 1e-3 * 1e8_f64.powf(f64::from(i) / 1999.0)).map(|x| x as f32).collect();
+    let negative = reach.iter().map(|x| -x).collect();
+    worst(form(&[negative, reach]).iter().map(|v| f64::from(*v).abs() - TAU))
+}
+
+/// Largest violation, 0 if none is positive; NaN if a value is, so that it cannot pass.
+fn worst(violations: impl Iterator<Item = f64>) -> f64 {
+    violations
+        .fold(0.0, |worst, v| if v.is_nan() || worst.is_nan() { f64::NAN } else { v.max(worst) })
+}

@@ -1,0 +1,184 @@
+//! The band integral B(x₀, x₁) = ∫ sinc²(t/2) dt, sinc u = sin u/u: what a scratch of width W makes of a
+//! light that spans q₀ to q₁ across it.
+//!
+//! Along the bitangent the scratch scatters into the lobe sinc²(kWq/2) (velinov2018 eq. 25). With
+//! t = kWq its integral over the light is B(kWq₀, kWq₁)/(kW); by parts ∫ sinc²(t/2) dt =
+//! 2 Si(t) − 4 sin²(t/2)/t, which over kW is the bracket of eq. 27, term by term.
+//!
+//! | symbol | here | unit | meaning |
+//! |---|---|---|---|
+//! | W | width | µm | scratch width, 0.8 to 6 |
+//! | k | 2π/λ | 1/µm | wavenumber |
+//! | q₀, q₁ | | 1 | ends of the light: differences of direction cosines, in [−2, 2] |
+//! | x₀, x₁ | `x0`, `x1` | rad | kWq₀, kWq₁ |
+//! | n | | 1 | order of a lobe: kWq in [2πn, 2π(n + 1)]; n = 0 is half of the main lobe |
+//! | P(x) | | 1 | B(0, x) = π − 2H(x); the whole axis holds 2π |
+//! | H(u) | `excess` + 1/(u + `shift`) | 1 | (π − P)/2 = 1/u − (1/u − f) cos u + g sin u, A&S 5.2.6–7 |
+//!
+//! Two things are lost by eq. 27 as printed. Si by eq. 29 has a spurious tail 0.34/x, whose difference
+//! is of the size of a side lobe. And with any Si the difference of two values near π has an error of
+//! some 1e-6, where the lobe n holds 1/(πn²). The forms of striae take differences of what
+//! decays, H, and for bands up to one period none at all: there the mean of sinc² is a sum of
+//! squares, each relative to the nearest zero of the sine, so that no cancellation is possible and the
+//! limits q → 0 and q₀ → q₁ are not special.
+//!
+//! Eq. 27 is registered with five forms of Si: eq. 29 and the auxiliary functions of 3, 6 and 8 constants
+//! and to the rounding of f32. Refits of eq. 29 are left out: they share its text, so that their constants
+//! can be passed to `band_printed`. Tables of Si are left out as well: to the rounding of f32 the
+//! error of eq. 27 is already that of the difference, which no Si changes.
+
+mod exhibits;
+mod findings;
+mod hard_cases;
+mod laws;
+mod lobe_errors;
+mod reference;
+mod regions;
+
+pub(super) use exhibits::exhibits;
+pub(super) use findings::findings;
+pub(super) use hard_cases::HARD_CASES;
+pub(super) use laws::{ADDITIVE, ANTISYMMETRIC, EVEN, POSITIVE, TOTAL};
+pub use reference::sinc_squared_band;
+pub(super) use regions::{LOBES, NARROW, SCENE_BANDS};
+
+use crate::effects::registry::{FormEntry, Quantity, Reference, Source};
+
+/// The band integral, as registered.
+pub(super) const REFERENCE: Reference = Reference {
+    name: "sinc_squared_band",
+    description: "integral of sinc^2(t/2), sinc u = sin u / u, from x0 to x1",
+    arguments: &[
+        Quantity { name: "x0", unit: "rad", domain: "any f64" },
+        Quantity { name: "x1", unit: "rad", domain: "any f64" },
+    ],
+    unit: "1",
+    accuracy: "relative error <= 1e-13 for every band, however narrow or far (tests/band.rs)",
+    source: "velinov2018 eq. 25 and 27 by parts; A&S 5.2.6-8, 5.2.34-35",
+    evaluate: |arguments| match *arguments {
+        [x0, x1, ..] => Ok(sinc_squared_band(x0, x1)),
+        // A call without its arguments has no value.
+        _ => Ok(f64::NAN),
+    },
+};
+
+/// Name of the WGSL function in every form.
+const FUNCTION: &str = "sinc_squared_band";
+
+/// Eq. 27 with eq. 29: what ships, and what costs and errors are held against.
+pub(super) const PRINTED: FormEntry = FormEntry {
+    name: "area_light/band_printed",
+    description: "eq. 27 as printed, Si by eq. 29",
+    citation: "velinov2018 eq. 27 and 29",
+    path: "src/effects/area_light/band/forms/printed.wgsl",
+    source: Source::Written(concat!(
+        include_str!("forms/printed.wgsl"),
+        include_str!("../../sine_integral/forms/published.wgsl")
+    )),
+    function: FUNCTION,
+    reference: REFERENCE.name,
+};
+
+/// Eq. 27 with three constants for Si.
+pub(super) const PRINTED_SMALL: FormEntry = FormEntry {
+    name: "area_light/band_printed_small",
+    description: "eq. 27 as printed, Si by auxiliary functions with 3 constants",
+    source: Source::Written(concat!(
+        include_str!("forms/printed.wgsl"),
+        include_str!("../../sine_integral/forms/auxiliary_small.wgsl")
+    )),
+    ..PRINTED_WITH_OWN_SI
+};
+
+/// Eq. 27 with six constants for Si.
+pub(super) const PRINTED_MEDIUM: FormEntry = FormEntry {
+    name: "area_light/band_printed_medium",
+    description: "eq. 27 as printed, Si by auxiliary functions with 6 constants",
+    source: Source::Written(concat!(
+        include_str!("forms/printed.wgsl"),
+        include_str!("../../sine_integral/forms/auxiliary_medium.wgsl")
+    )),
+    ..PRINTED_WITH_OWN_SI
+};
+
+/// Eq. 27 with eight constants for Si.
+pub(super) const PRINTED_LEAN: FormEntry = FormEntry {
+    name: "area_light/band_printed_lean",
+    description: "eq. 27 as printed, Si by auxiliary functions with 8 constants",
+    source: Source::Written(concat!(
+        include_str!("forms/printed.wgsl"),
+        include_str!("../../sine_integral/forms/auxiliary_lean.wgsl")
+    )),
+    ..PRINTED_WITH_OWN_SI
+};
+
+/// Eq. 27 with Si to the rounding of f32: what is left is the cancellation.
+pub(super) const PRINTED_LARGE: FormEntry = FormEntry {
+    name: "area_light/band_printed_large",
+    description: "eq. 27 as printed, Si to the rounding of f32",
+    source: Source::Written(concat!(
+        include_str!("forms/printed.wgsl"),
+        include_str!("../../sine_integral/forms/auxiliary_large.wgsl"),
+        include_str!("../../sine_integral/forms/phase.wgsl")
+    )),
+    ..PRINTED_WITH_OWN_SI
+};
+
+/// What eq. 27 with a Si of striae shares.
+const PRINTED_WITH_OWN_SI: FormEntry =
+    FormEntry { citation: "velinov2018 eq. 27; Si of striae", ..PRINTED };
+
+/// Rule of four nodes; beyond one period the complement over a cubic.
+pub(super) const LEAN: FormEntry = FormEntry {
+    name: "area_light/band_lean",
+    description: "up to one period a fitted rule of four nodes, beyond it the complement over a cubic; \
+                  9 constants",
+    citation: "striae",
+    path: "src/effects/area_light/band/forms/band_lean.wgsl",
+    // The form first, so that its lines keep their numbers in diagnostics.
+    source: Source::Written(concat!(
+        include_str!("forms/band_lean.wgsl"),
+        include_str!("forms/complement.wgsl"),
+        include_str!("forms/rule_of_four.wgsl"),
+        include_str!("forms/band_phase.wgsl")
+    )),
+    function: FUNCTION,
+    reference: REFERENCE.name,
+};
+
+/// Rule of four nodes; beyond one period the complement over a quartic.
+pub(super) const MEDIUM: FormEntry = FormEntry {
+    name: "area_light/band_medium",
+    description: "up to one period a fitted rule of four nodes, beyond it the complement over a quartic; \
+                  13 constants",
+    citation: "striae",
+    path: "src/effects/area_light/band/forms/band_medium.wgsl",
+    source: Source::Written(concat!(
+        include_str!("forms/band_medium.wgsl"),
+        include_str!("forms/complement.wgsl"),
+        include_str!("forms/rule_of_four.wgsl"),
+        include_str!("forms/band_phase.wgsl")
+    )),
+    function: FUNCTION,
+    reference: REFERENCE.name,
+};
+
+/// Rule of five nodes; beyond one period the complement over a sextic.
+pub(super) const LARGE: FormEntry = FormEntry {
+    name: "area_light/band_large",
+    description: "up to one period a fitted rule of five nodes, beyond it the complement over a sextic; \
+                  19 constants",
+    citation: "striae",
+    path: "src/effects/area_light/band/forms/band_large.wgsl",
+    source: Source::Written(concat!(
+        include_str!("forms/band_large.wgsl"),
+        include_str!("forms/complement.wgsl"),
+        include_str!("forms/rule_of_five.wgsl"),
+        include_str!("forms/band_phase.wgsl")
+    )),
+    function: FUNCTION,
+    reference: REFERENCE.name,
+};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,88 @@
+//! Forms of lights against their references over tables of points, for exhibits and findings.
+
+use rayon::prelude::*;
+
+use super::forms::FORMS;
+use crate::effects::exhibit::ExhibitError;
+use crate::effects::registry::{FittedConstants, Reference};
+use crate::form::Form;
+use crate::table::Table;
+
+/// A form with the constants of its fit, or those of its text where it has no fit.
+pub(super) struct Loaded {
+    form: Form,
+    constants: Vec<f64>,
+}
+
+impl Loaded {
+    /// The form `area_light/name`.
+    pub(super) fn new(name: &str, fitted: &FittedConstants) -> Result<Self, ExhibitError> {
+        let full = format!("area_light/{name}");
+        let entry = FORMS.iter().find(|form| form.name == full);
+        let entry = entry.ok_or_else(|| ExhibitError(format!("no form is called {full}")))?;
+        let form = entry.load().map_err(|error| ExhibitError(error.to_string()))?;
+        let known = fitted.0.get(&full);
+        let constants = form
+            .parameters()
+            .iter()
+            .map(|p| known.and_then(|values| values.get(&p.name)).copied().or(p.default))
+            .collect::<Option<_>>()
+            .ok_or_else(|| ExhibitError(format!("{full} has a constant without a value")))?;
+        Ok(Self { form, constants })
+    }
+
+    /// Values at the points, in f32.
+    pub(super) fn single(&self, points: &Points) -> Result<Vec<f64>, ExhibitError> {
+        let columns: Vec<Vec<f32>> =
+            points.columns.iter().map(|c| c.iter().map(|&v| v as f32).collect()).collect();
+        let columns: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
+        let constants: Vec<f32> = self.constants.iter().map(|&v| v as f32).collect();
+        let values = self.form.eval_f32(&constants, &columns);
+        let values = values.map_err(|error| ExhibitError(error.to_string()))?;
+        Ok(values.into_iter().flatten().map(f64::from).collect())
+    }
+
+    /// Values at the points, in f64.
+    pub(super) fn double(&self, points: &Points) -> Result<Vec<f64>, ExhibitError> {
+        let columns: Vec<&[f64]> = points.columns.iter().map(Vec::as_slice).collect();
+        let values = self.form.eval_f64(&self.constants, &columns);
+        Ok(values.map_err(|error| ExhibitError(error.to_string()))?.into_iter().flatten().collect())
+    }
+}
+
+/// Columns of arguments.
+pub(super) struct Points {
+    pub columns: Vec<Vec<f64>>,
+}
+
+impl Points {
+    pub(super) fn new(table: Table) -> Self {
+        Self { columns: table.columns.into_iter().map(|column| column.values).collect() }
+    }
+
+    /// Number of points.
+    pub(super) fn count(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// The arguments at one point.
+    pub(super) fn row(&self, row: usize) -> Vec<f64> {
+        self.columns.iter().map(|column| column[row]).collect()
+    }
+
+    /// Values of the reference.
+    pub(super) fn exact(&self, reference: &Reference) -> Result<Vec<f64>, ExhibitError> {
+        (0..self.count())
+            .into_par_iter()
+            .map(|row| (reference.evaluate)(&self.row(row)))
+            .collect::<Result<_, _>>()
+            .map_err(|error| ExhibitError(error.to_string()))
+    }
+}
+
+/// Relative error in the L2 norm.
+pub(super) fn relative_l2(values: &[f64], exact: &[f64]) -> f64 {
+    let errors: f64 = values.iter().zip(exact).map(|(v, e)| (v - e) * (v - e)).sum();
+    let norm: f64 = exact.iter().map(|e| e * e).sum();
+    (errors / norm).sqrt()
+}
