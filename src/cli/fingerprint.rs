@@ -59,6 +59,9 @@ impl Fingerprints {
             add(&mut hash, fit.as_bytes());
         }
         add_file(&mut hash, &project.gates())?;
+        if project.scene_folder().is_dir() {
+            add_folder(&mut hash, &project.scene_folder())?;
+        }
         if project.reports().is_dir() {
             add_folder(&mut hash, &project.reports())?;
         }

@@ -9,8 +9,9 @@ use super::output::{significant, table};
 use super::{Ending, specs};
 use crate::effects::registry::EFFECTS;
 use crate::gate;
+use crate::render::Scene;
 
-/// List what there is: effects, references, forms, data, fits and gates
+/// List what there is: effects, references, forms, data, scenes, fits and gates
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  striae list\n  striae list forms --json")]
 pub(super) struct Arguments {
@@ -28,6 +29,8 @@ enum Kind {
     Forms,
     /// Sets of measured data
     Data,
+    /// What `render` renders
+    Scenes,
     /// Specs and the state of their results
     Fits,
     /// Budgets in fits/gates.toml
@@ -83,7 +86,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
 
 impl Kind {
     fn needs_project(self) -> bool {
-        matches!(self, Self::Data | Self::Fits | Self::Gates)
+        matches!(self, Self::Data | Self::Scenes | Self::Fits | Self::Gates)
     }
 
     fn listing(self, context: &Context) -> anyhow::Result<Listing> {
@@ -92,6 +95,7 @@ impl Kind {
             Self::References => references(),
             Self::Forms => forms(),
             Self::Data => data(context)?,
+            Self::Scenes => scenes(context)?,
             Self::Fits => fits(context)?,
             Self::Gates => gates(context)?,
         })
@@ -148,6 +152,17 @@ fn data(context: &Context) -> anyhow::Result<Listing> {
         })
         .collect();
     Ok(Listing { title: "data", header: &["name", "files", "source", "description"], rows })
+}
+
+fn scenes(context: &Context) -> anyhow::Result<Listing> {
+    let mut rows = Vec::new();
+    for path in context.project()?.scenes()? {
+        let scene = Scene::read(&path)?;
+        let shading = scene.approximations.iter().map(|choice| choice.name.as_str());
+        let shading = shading.collect::<Vec<_>>().join(", ");
+        rows.push(row([&scene.name, &shading, &scene.description]));
+    }
+    Ok(Listing { title: "scenes", header: &["name", "approximations", "description"], rows })
 }
 
 fn fits(context: &Context) -> anyhow::Result<Listing> {

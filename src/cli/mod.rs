@@ -7,6 +7,8 @@ mod fingerprint;
 mod bench;
 mod all;
 mod check;
+mod compare;
+mod compare_text;
 mod completions;
 mod context;
 mod data;
@@ -23,6 +25,8 @@ mod output;
 mod points;
 mod progress;
 mod project;
+mod render;
+mod render_table;
 mod specs;
 
 use std::process::ExitCode;
@@ -79,9 +83,11 @@ enum Verb {
     List(list::Arguments),
     Fit(fit::Arguments),
     Eval(eval::Arguments),
+    Render(render::Arguments),
     Bench(bench::Arguments),
     Report(report::Arguments),
     Check(check::Arguments),
+    Compare(compare::Arguments),
     Emit(emit::Arguments),
     Import(import::Arguments),
     Doctor(doctor::Arguments),
@@ -105,9 +111,11 @@ fn run(line: CommandLine) -> anyhow::Result<Ending> {
         Verb::List(arguments) => list::run(&arguments, &context),
         Verb::Fit(arguments) => fit::run(&arguments, &context),
         Verb::Eval(arguments) => eval::run(&arguments, &context),
+        Verb::Render(arguments) => render::run(&arguments, &context),
         Verb::Bench(arguments) => bench::run(&arguments, &context),
         Verb::Report(arguments) => report::run(&arguments, &context),
         Verb::Check(arguments) => check::run(&arguments, &context),
+        Verb::Compare(arguments) => compare::run(&arguments, &context),
         Verb::Emit(arguments) => emit::run(&arguments, &context),
         Verb::Import(arguments) => import::run(&arguments, &context),
         Verb::Doctor(arguments) => doctor::run(&arguments, &context),

@@ -51,6 +51,22 @@ impl Project {
     pub(super) fn data(&self) -> PathBuf {
         self.root.join("data/measured")
     }
+    /// Scenes by name, `data/scenes/*.toml`; none without the folder.
+    ///
+    /// # Errors
+    /// If the folder cannot be read.
+    pub(super) fn scenes(&self) -> anyhow::Result<Vec<PathBuf>> {
+        let folder = self.scene_folder();
+        if !folder.is_dir() {
+            return Ok(Vec::new());
+        }
+        let toml = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "toml");
+        Ok(super::specs::entries(&folder)?.into_iter().filter(toml).collect())
+    }
+    /// Where scenes are.
+    pub(super) fn scene_folder(&self) -> PathBuf {
+        self.root.join("data/scenes")
+    }
     /// `path` relative to the project where it is inside it, for messages that read the same
     /// everywhere.
     pub(super) fn shown(&self, path: &Path) -> String {

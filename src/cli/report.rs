@@ -10,16 +10,16 @@ use super::context::Context;
 use super::progress;
 use super::studies::{self, Results, Studied};
 use crate::effects::registry::EFFECTS;
-use crate::gate::{Check, Judgement, Verdict as Standing};
+use crate::gate::{Check, Judgement, SCENES, Verdict as Standing};
 use crate::gpu::Device;
 use crate::report::document::{Page, Provenance, Verdict};
 use crate::report::html::{Written, write_site};
-use crate::report::pages::{Evidence, GateLine, effect_page, index_page};
+use crate::report::pages::{Evidence, GateLine, effect_page, index_page, scenes_page};
 use crate::validate::measured::Measured;
 
 const MORE: &str = "\
 Writes index.html and a page per effect (self-contained, no network), report.json, report.txt and
-figures/*.svg.
+figures/*.svg, figures/*.png.
 
 Example:
   striae report -o /tmp/report";
@@ -64,6 +64,7 @@ pub(super) fn write(
         studied.push(studies::measure(effect, &results, device, context)?);
         bar.inc(1);
     }
+    let scenes = studies::scenes(device, context)?;
     bar.set_message("writing the report");
     let lines: Vec<GateLine> = check.gates.iter().map(line).collect();
     let of: Vec<Vec<GateLine>> = studied.iter().map(|studied| gates_of(studied, &lines)).collect();
@@ -82,6 +83,11 @@ pub(super) fn write(
         .collect();
     let mut pages = vec![index_page(&evidence, &lines)];
     pages.extend(evidence.iter().map(effect_page).collect::<Result<Vec<Page>, _>>()?);
+    if !scenes.is_empty() {
+        let of_scenes: Vec<GateLine> =
+            lines.iter().filter(|line| line.subject.starts_with(SCENES)).cloned().collect();
+        pages.push(scenes_page(&scenes, &of_scenes)?);
+    }
     let provenance = Provenance {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         adapter: device.value().map(|device| device.description().to_string()),

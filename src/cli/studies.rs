@@ -9,6 +9,8 @@ use crate::effects::registry::{EFFECTS, Effect, Member};
 use crate::fit::FitResult;
 use crate::fit::outcome::{FamilyOutcome, Outcome};
 use crate::gpu::{self, Device};
+use crate::render::{Backend, Resources, Scene, render_scene};
+use crate::report::pages::SceneEvidence;
 use crate::validate::candidates::{candidates, timed_references};
 use crate::validate::cost::{Costs, costs};
 use crate::validate::measured::Measured;
@@ -85,6 +87,25 @@ pub(super) fn effects(names: &[String]) -> anyhow::Result<Vec<&'static Effect>> 
             })
         })
         .collect()
+}
+
+/// Renders every scene of the project, on the device if there is one.
+pub(super) fn scenes(
+    device: &Measured<Device>,
+    context: &Context,
+) -> anyhow::Result<Vec<SceneEvidence>> {
+    let project = context.project()?;
+    let (fits, data) = (project.fits(), project.data());
+    let backend = device.value().map_or(Backend::Lanes, Backend::Device);
+    let mut found = Vec::new();
+    for path in project.scenes()? {
+        let scene = Scene::read(&path)?;
+        let resources = Resources { fits: &fits, data: &data };
+        let rendered = render_scene(&scene, resources, backend, &mut |_| ())
+            .with_context(|| path.display().to_string())?;
+        found.push(SceneEvidence { scene, rendered });
+    }
+    Ok(found)
 }
 
 /// Measures `effect`: accuracy, laws, parity, findings and cost.

@@ -12,8 +12,8 @@ pub struct Gate {
     pub index: usize,
     /// Line of its `subject` in the file, from 1.
     pub line: usize,
-    /// A fit (`effect/name`), a family of fits (`effect/name`: its worst member) or one member
-    /// (`effect/name#label`).
+    /// A fit (`effect/name`), a family of fits (`effect/name`: its worst member), one member
+    /// (`effect/name#label`), or an approximation of a scene (`scenes/name#approximation`).
     pub subject: String,
     /// What is measured.
     pub metric: Metric,
@@ -53,6 +53,8 @@ pub enum Metric {
     /// Error relative to the target in the L2 norm; over a region whose points are grouped (over
     /// the offset for every half-extent, say) the worst group.
     RelL2,
+    /// Mean LDR-FLIP of a picture; for scenes only.
+    Flip,
     /// Largest distance, in units in the last place of f32, between a constant in the shipped file
     /// and the fitted one.
     Drift,
@@ -60,7 +62,7 @@ pub enum Metric {
 
 impl Metric {
     /// Every metric, in the order of the documentation.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::MaxAbs,
         Self::Rms,
         Self::Bias,
@@ -69,6 +71,7 @@ impl Metric {
         Self::P99,
         Self::MaxRel,
         Self::RelL2,
+        Self::Flip,
         Self::Drift,
     ];
 
@@ -83,6 +86,7 @@ impl Metric {
             Self::P99 => "p99",
             Self::MaxRel => "max_rel",
             Self::RelL2 => "rel_l2",
+            Self::Flip => "flip",
             Self::Drift => "drift",
         }
     }

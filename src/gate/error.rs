@@ -3,6 +3,7 @@
 use super::{Gate, GateFileError};
 use crate::effects::registry::FamilyError;
 use crate::fit::FitError;
+use crate::render::RenderError;
 use crate::table::TableError;
 use crate::validate::ValidateError;
 
@@ -55,12 +56,21 @@ pub enum GateError {
     /// A form or a reference could not be evaluated, or the device failed.
     #[error(transparent)]
     Validate(#[from] ValidateError),
+    /// A scene is unusable, or cannot be rendered.
+    #[error("{0}")]
+    Render(#[source] Box<RenderError>),
     /// A table is unusable.
     #[error(transparent)]
     Table(#[from] TableError),
     /// A family could not be made.
     #[error(transparent)]
     Family(#[from] FamilyError),
+}
+
+impl From<RenderError> for GateError {
+    fn from(error: RenderError) -> Self {
+        Self::Render(Box::new(error))
+    }
 }
 
 impl Gate {

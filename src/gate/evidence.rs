@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
+use super::scene::Scenes;
 use super::subject::{Instance, Lever, Subject};
 use super::{Domain, Gate, GateError, Refits, committed};
 use crate::effects::registry::{self, Effect, Member, Reference, Yardstick};
@@ -12,6 +14,7 @@ use crate::fit::spec::Target as SpecTarget;
 use crate::fit::{FitResult, Spec};
 use crate::table::{Column, Table};
 use crate::validate::accuracy::{Judged, Shipped, Target};
+use crate::validate::regions::judged;
 use crate::validate::sampling::{self, Interval};
 
 /// A project as gates see it.
@@ -20,11 +23,8 @@ pub struct Evidence {
     root: PathBuf,
     refits: Refits,
     families: BTreeMap<&'static str, Vec<Member>>,
-    judged: BTreeMap<PointsKey, Judged>,
+    scenes: Scenes,
 }
-
-/// Reference and domain of a gate; without a domain, its fit too.
-type PointsKey = ((String, Option<String>), Option<String>);
 
 /// A subject, or why the gate fails without being measured.
 pub(super) type Found<T> = Result<T, String>;
@@ -33,12 +33,17 @@ impl Evidence {
     /// The project in the folder `root`, which holds `fits/` and `data/measured/`. `refits` tell
     /// results that are stale.
     pub fn new(root: PathBuf, refits: Refits) -> Self {
-        Self { root, refits, families: BTreeMap::new(), judged: BTreeMap::new() }
+        Self { root, refits, families: BTreeMap::new(), scenes: Scenes::default() }
     }
 
     /// The project's folder.
     pub(super) fn root(&self) -> &std::path::Path {
         &self.root
+    }
+
+    /// The scenes named so far.
+    pub(super) fn scenes(&mut self) -> &mut Scenes {
+        &mut self.scenes
     }
 
     /// The spec that a gate's subject names, with the label of the member if it names one.
@@ -127,14 +132,15 @@ impl Evidence {
             SpecTarget::Reference(name) => {
                 let (effect, reference) = registry::reference(name)
                     .ok_or_else(|| gate.fault(format!("its target `{name}` is no reference")))?;
-                let key = (name.clone(), gate.domain.as_ref().map(ToString::to_string));
-                let key = (key, gate.domain.is_none().then(|| spec.name.clone()));
-                if !self.judged.contains_key(&key) {
-                    let (points, by) = reference_points(gate, spec, effect, reference)?;
-                    let judged = Judged::new(reference, points, by, Yardstick::MaxAbs)?;
-                    self.judged.insert(key.clone(), judged);
-                }
-                let judged = self.judged.get(&key).ok_or_else(|| gate.fault("no points".into()))?;
+                let judged = match (&gate.domain, &spec.region) {
+                    (Some(Domain::Region(name)), _) | (None, Some(name)) => {
+                        region(gate, effect, reference, name)?
+                    }
+                    _ => {
+                        let points = reference_points(gate, spec, effect, reference)?;
+                        Arc::new(Judged::new(reference, points, None, Yardstick::MaxAbs)?)
+                    }
+                };
                 Ok(judged.target(&shipped.form)?)
             }
             SpecTarget::Family(name) => {
@@ -194,19 +200,17 @@ fn levers(outcome: &Outcome, shipped: &Shipped) -> Vec<Lever> {
     if levers.is_empty() { vec![Lever::Output] } else { levers }
 }
 
-/// Points of a gate on a reference, and what parts them into groups.
+/// Points of a gate on a reference over a box.
 fn reference_points(
     gate: &Gate,
     spec: &Spec,
     effect: &Effect,
     reference: &Reference,
-) -> Result<(Table, Option<&'static str>), GateError> {
+) -> Result<Table, GateError> {
     let mut constants: Vec<(&str, f64)> = Vec::new();
-    let domain = match (&gate.domain, &spec.region) {
-        (Some(Domain::Region(name)), _) => return region(gate, effect, name),
-        (None, Some(name)) => return region(gate, effect, name),
-        (Some(Domain::Box(domain)), _) => domain.clone(),
-        (None, None) => {
+    let domain = match &gate.domain {
+        Some(Domain::Box(domain)) => domain.clone(),
+        _ => {
             let interval = |(argument, axis): (&String, &Axis)| {
                 let points = axis.points();
                 let from = points.iter().copied().fold(f64::INFINITY, f64::min);
@@ -241,33 +245,32 @@ fn reference_points(
     for (name, value) in constants {
         points.columns.push(Column::new(name, "1", vec![value; rows]));
     }
-    Ok((points, None))
+    Ok(points)
 }
 
-/// Points of a region that the effect names, as f32 numbers, so that every precision sees the same.
+/// A region or a set of hard cases that the effect names, with the values of `reference`.
 fn region(
     gate: &Gate,
     effect: &Effect,
+    reference: &'static Reference,
     name: &str,
-) -> Result<(Table, Option<&'static str>), GateError> {
+) -> Result<Arc<Judged>, GateError> {
     let region = effect
         .regions
         .iter()
         .chain(effect.hard_cases)
         .find(|region| region.name == name)
         .ok_or_else(|| {
-            let known: Vec<&str> = effect.regions.iter().map(|region| region.name).collect();
+            let all = effect.regions.iter().chain(effect.hard_cases);
+            let known: Vec<&str> = all.map(|region| region.name).collect();
             gate.fault(format!(
                 "domain: {} has no region `{name}`; it has {}",
                 effect.name,
                 known.join(", ")
             ))
         })?;
-    let mut points = (region.points)();
-    for value in points.columns.iter_mut().flat_map(|column| &mut column.values) {
-        *value = f64::from(*value as f32);
-    }
-    Ok((points, region.by))
+    judged(region, reference)?
+        .ok_or_else(|| gate.fault(format!("domain: {name} has no points for {}", reference.name)))
 }
 
 /// The rows of a table that lie in the gate's domain; all of them without one.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{Domain, Gate, Metric, Precision};
+use super::{Domain, Gate, Metric, Precision, SCENES};
 
 /// Why a gate file cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -146,6 +146,26 @@ impl Reading<'_> {
         }
         if let (Some(domain), Metric::Drift) = (&raw.domain, metric) {
             let message = "drift compares constants, over no domain".to_owned();
+            return Err(self.wrong("domain", domain, message));
+        }
+        let of_pictures = subject.starts_with(SCENES);
+        let pictured = [Metric::RelL2, Metric::Rms, Metric::MaxAbs, Metric::Bias, Metric::Flip];
+        if of_pictures != (metric == Metric::Flip) && !(of_pictures && pictured.contains(&metric)) {
+            let message = if of_pictures {
+                format!("a scene has rel_l2, rms, max_abs, bias and flip, got {metric}")
+            } else {
+                "flip is a metric of scenes, `scenes/name#approximation`".to_owned()
+            };
+            return Err(self.wrong("metric", &raw.metric, message));
+        }
+        if let (Some(precision_text), Precision::F64, true) =
+            (&raw.precision, precision, of_pictures)
+        {
+            let message = "a picture is made in f32 or on the device".to_owned();
+            return Err(self.wrong("precision", precision_text, message));
+        }
+        if let (Some(domain), true) = (&raw.domain, of_pictures) {
+            let message = "a scene is judged over all of its pixels".to_owned();
             return Err(self.wrong("domain", domain, message));
         }
         match (&raw.shipped, metric) {

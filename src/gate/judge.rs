@@ -36,6 +36,13 @@ fn judge_one(
             Err(reason) => Judgement::failed(gate.clone(), reason),
         });
     }
+    if gate.scene().is_some() {
+        if let (Precision::Device, Measured::NotMeasured(reason)) = (gate.precision, device) {
+            return Ok(Judgement::not_measured(gate.clone(), reason.clone()));
+        }
+        let reached = evidence.scene(gate)?.reached(gate, device.value())?;
+        return Ok(Judgement::of(gate.clone(), reached));
+    }
     let subject = match evidence.subject(gate)? {
         Ok(subject) => subject,
         Err(reason) => return Ok(Judgement::failed(gate.clone(), reason)),

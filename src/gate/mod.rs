@@ -1,6 +1,6 @@
 //! Gates: budgets on numbers of a fit, each with the reason for it, in `fits/gates.toml`.
 //!
-//! A gate names a subject (a fit, a family of fits, one member), a metric and a limit. It passes
+//! A gate names a subject (a fit, a family of fits, one member, a picture), a metric and a limit. It passes
 //! only on a number that was measured in this run, on points that were not fitted, with the
 //! constants that are committed. Whatever stands in the way of measuring it fails it, except a
 //! missing device, which is shown as not measured.
@@ -18,6 +18,7 @@ mod judge;
 mod junit;
 mod prove;
 mod reproduce;
+mod scene;
 mod shipped;
 mod subject;
 mod verdict;
@@ -34,5 +35,6 @@ pub use judge::judge;
 pub use junit::junit;
 pub use prove::{Proof, Proofs, prove};
 pub use reproduce::{Refits, Reproduction, refit, reproduce};
+pub use scene::SCENES;
 pub use shipped::{ShippedConstants, ShippedError};
 pub use verdict::{Judgement, Reached, Verdict};

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 
 use super::subject::{Instance, Lever, Subject, reached};
-use super::{Evidence, Gate, GateError, Metric, Precision, ShippedConstants};
+use super::{Evidence, Gate, GateError, Metric, Precision, SCENES, ShippedConstants};
 use crate::gpu::Device;
 use crate::numeric::ulp::ulp_distance_f32;
 use crate::validate::measured::Measured;
@@ -61,6 +61,10 @@ pub fn prove(
 ) -> Result<Proofs, GateError> {
     let mut found = Proofs::default();
     for gate in gates {
+        if gate.scene().is_some() {
+            prove_scene(gate, evidence, device, &mut found)?;
+            continue;
+        }
         let subject = match evidence.subject(gate)? {
             Ok(subject) => subject,
             Err(reason) => {
@@ -91,8 +95,42 @@ pub fn prove(
             found.proofs.push(proof);
         }
     }
-    found.defects.extend(defects(&found.proofs));
+    let sources = sources(gates, evidence)?;
+    found.defects.extend(defects(&found.proofs, &sources));
     Ok(found)
+}
+
+/// Moves the constants of the forms that shade a scene until one trips the gate: the others are
+/// guarded by the gates on the fits that they come from.
+fn prove_scene(
+    gate: &Gate,
+    evidence: &mut Evidence,
+    device: &Measured<Device>,
+    found: &mut Proofs,
+) -> Result<(), GateError> {
+    if gate.precision == Precision::Device && device.value().is_none() {
+        found.without_device += 1;
+    }
+    let subject = evidence.scene(gate)?;
+    if beyond(subject.reached(gate, device.value())?.value, gate.limit) {
+        found.defects.push(format!("{} fails as it stands: nothing to show", name(gate)));
+        return Ok(());
+    }
+    let lever = Lever::Output;
+    let mut proof = unproved(gate, &lever, 1);
+    for step in STEPS.iter().flat_map(|step| [*step, -*step]) {
+        for constant in subject.constants() {
+            let value = subject.perturbed(gate, &constant, step, device.value())?.value;
+            if beyond(value, gate.limit) {
+                proof.constant = constant;
+                proof.take(Some((step, value)));
+                found.proofs.push(proof);
+                return Ok(());
+            }
+        }
+    }
+    found.proofs.push(proof);
+    Ok(())
 }
 
 fn name(gate: &Gate) -> String {
@@ -197,8 +235,24 @@ fn drifted(instance: &Instance, lever: &Lever, step: f64, shipped: &ShippedConst
         .fold(0.0, |worst: f64, other| if other.is_nan() || other > worst { other } else { worst })
 }
 
-/// What the proofs leave open.
-fn defects(proofs: &[Proof]) -> Vec<String> {
+/// The fits that the fits of the gates take constants from, by name.
+fn sources(
+    gates: &[Gate],
+    evidence: &Evidence,
+) -> Result<BTreeMap<String, Vec<String>>, GateError> {
+    let mut sources = BTreeMap::new();
+    for gate in gates.iter().filter(|gate| gate.scene().is_none()) {
+        let (spec, _) = evidence.spec(gate)?;
+        if !spec.constants.is_empty() {
+            sources.insert(spec.name, spec.constants);
+        }
+    }
+    Ok(sources)
+}
+
+/// What the proofs leave open. A constant that a fit takes from another is guarded where it is
+/// fitted.
+fn defects(proofs: &[Proof], sources: &BTreeMap<String, Vec<String>>) -> Vec<String> {
     let mut defects = Vec::new();
     let mut gates: BTreeMap<usize, (bool, &Proof)> = BTreeMap::new();
     let mut guarded: BTreeSet<(&str, &str)> = BTreeSet::new();
@@ -219,7 +273,14 @@ fn defects(proofs: &[Proof]) -> Vec<String> {
     }
     let constants: BTreeSet<(&str, &str)> =
         proofs.iter().map(|proof| (fit(proof), proof.constant.as_str())).collect();
-    for (fit, constant) in constants.difference(&guarded) {
+    let inherited = |fit: &str, constant: &str| {
+        sources.get(fit).is_some_and(|from| {
+            from.iter().any(|source| guarded.contains(&(source.as_str(), constant)))
+        })
+    };
+    let unguarded =
+        constants.difference(&guarded).filter(|(fit, constant)| !inherited(fit, constant));
+    for (fit, constant) in unguarded.filter(|(fit, _)| !fit.starts_with(SCENES)) {
         defects.push(format!("{fit}: no gate guards the constant `{constant}`"));
     }
     defects
@@ -251,13 +312,29 @@ mod tests {
     #[test]
     fn a_constant_guarded_by_another_gate_is_guarded() {
         let proofs = [proof(1, "a", Some(0.1)), proof(1, "b", None), proof(2, "b", Some(0.1))];
-        assert!(defects(&proofs).is_empty());
+        assert!(defects(&proofs, &BTreeMap::new()).is_empty());
+    }
+
+    #[test]
+    fn a_constant_of_another_fit_is_guarded_there() {
+        let of = |fit: &str, gate, constant, step| Proof {
+            subject: fit.to_owned(),
+            ..proof(gate, constant, step)
+        };
+        let proofs = [
+            of("e/whole", 1, "a", Some(0.1)),
+            of("e/whole", 1, "b", None),
+            of("e/part", 2, "b", Some(0.1)),
+        ];
+        let sources = BTreeMap::from([("e/whole".to_owned(), vec!["e/part".to_owned()])]);
+        assert!(defects(&proofs, &sources).is_empty());
+        assert_eq!(defects(&proofs, &BTreeMap::new()).len(), 1);
     }
 
     #[test]
     fn a_gate_that_nothing_trips_and_its_constant_are_defects() {
         let proofs = [proof(1, "a", Some(0.1)), proof(2, "b", None)];
-        let defects = defects(&proofs);
+        let defects = defects(&proofs, &BTreeMap::new());
         assert_eq!(defects.len(), 2, "{defects:?}");
         assert!(defects[0].contains("cannot fail") && defects[1].contains("`b`"), "{defects:?}");
     }

@@ -135,7 +135,7 @@ fn figure(metric: Metric, residuals: &Residuals) -> (f64, BTreeMap<String, f64>)
         Metric::P95 => (residuals.p95, nowhere),
         Metric::P99 => (residuals.p99, nowhere),
         // Neither comes here, and either would fail if it did.
-        Metric::RelL2 | Metric::Drift => (f64::NAN, nowhere),
+        Metric::RelL2 | Metric::Flip | Metric::Drift => (f64::NAN, nowhere),
     }
 }
 

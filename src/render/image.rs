@@ -1,4 +1,12 @@
-//! Images: named channels of f32 over one grid of pixels.
+//! Images: named channels of f32 over one grid of pixels, read from and written to EXR and PNG.
+
+use std::path::{Path, PathBuf};
+
+use super::{exr_file, png_file};
+use crate::table::{TableError, store};
+
+/// What the name of a channel of standard errors begins with: `stderr.R` belongs to `R`.
+pub const STANDARD_ERROR_PREFIX: &str = "stderr.";
 
 /// An image. Rows from top to bottom, pixels from left to right; a pixel's centre is half a pixel
 /// from its edges.
@@ -21,6 +29,78 @@ pub struct Channel {
     pub values: Vec<f32>,
 }
 
+/// Why an image could not be read, used or written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ImageError {
+    /// The file could not be read or written, or it is no EXR that this crate reads.
+    #[error(transparent)]
+    File(#[from] TableError),
+    /// The name of the file ends in none of the known formats.
+    #[error("{}: unknown format of image; expected a name that ends in .exr or .png", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The PNG decoder or encoder refused.
+    #[error("{origin}: malformed PNG: {reason}")]
+    Png {
+        /// The file.
+        origin: String,
+        /// What the decoder said.
+        reason: String,
+    },
+    /// A channel that is needed is not there.
+    #[error("no channel {name:?}; the image has: {known}")]
+    MissingChannel {
+        /// The channel.
+        name: String,
+        /// The names that are there.
+        known: String,
+    },
+    /// Two channels have one name.
+    #[error("channel {name:?} appears twice")]
+    DuplicateChannel {
+        /// The name.
+        name: String,
+    },
+    /// A channel does not fill the image.
+    #[error("channel {name:?} has {got} values, {width} × {height} pixels need {expected}")]
+    Length {
+        /// The channel.
+        name: String,
+        /// Pixels across.
+        width: usize,
+        /// Pixels down.
+        height: usize,
+        /// Number of values that is needed.
+        expected: usize,
+        /// Number of values that is there.
+        got: usize,
+    },
+    /// An image without pixels or without channels.
+    #[error("an image of {width} × {height} pixels with {channels} channels is empty")]
+    Empty {
+        /// Pixels across.
+        width: usize,
+        /// Pixels down.
+        height: usize,
+        /// Number of channels.
+        channels: usize,
+    },
+}
+
+/// What a picture with a limited range could not show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Clipped {
+    /// Pixels with a channel below 0, shown as 0.
+    pub below: usize,
+    /// Pixels with a channel above 1 after exposure, shown as 1.
+    pub above: usize,
+    /// Pixels with a channel that is not finite, shown in magenta.
+    pub non_finite: usize,
+}
+
 impl Image {
     /// An image of linear sRGB colours, row by row.
     pub fn rgb(width: usize, height: usize, colours: &[[f32; 3]]) -> Self {
@@ -35,8 +115,172 @@ impl Image {
         }
     }
 
+    /// Reads an image, of the format that the name ends in.
+    ///
+    /// - `.exr`: every channel under its own name, half or f32, also NaN and infinities, which
+    ///   [`Image::non_finite`] counts. `R`, `G`, `B`, `A` come first, the others as in the file.
+    /// - `.png`: 8 or 16 bits, decoded from sRGB to linear `R`, `G`, `B` (three equal channels for
+    ///   grey), and `A` as it is. Colour profiles and gamma chunks are not looked at.
+    ///
+    /// # Errors
+    /// [`ImageError`], naming the file: not there, another format, malformed, truncated, or larger
+    /// than [`crate::table::MAX_PIXEL_BYTES`].
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, ImageError> {
+        let path = path.as_ref();
+        let decode = match Format::of(path)? {
+            Format::Exr => exr_file::decode,
+            Format::Png => png_file::decode,
+        };
+        decode(&path.display().to_string(), &store::read(path)?)
+    }
+
+    /// Writes all channels as f32 EXR with lossless packing, whole or not at all. The same image
+    /// always gives the same bytes, and reading gives the same values, NaN among them.
+    ///
+    /// # Errors
+    /// As [`Image::check`]; [`ImageError::File`] if the file cannot be written.
+    pub fn write_exr(&self, path: impl AsRef<Path>) -> Result<(), ImageError> {
+        let path = path.as_ref();
+        let bytes = exr_file::encode(self, &path.display().to_string())?;
+        Ok(store::atomic_write(path, &bytes)?)
+    }
+
+    /// Writes the colours ([`Image::colours`]) times 2^`exposure` as an 8-bit sRGB PNG, whole or not
+    /// at all. Values are clamped to [0, 1], pixels that are not finite are magenta; the result
+    /// counts both.
+    ///
+    /// # Errors
+    /// As [`Image::colours`]; [`ImageError::File`] if the file cannot be written.
+    pub fn write_png(&self, path: impl AsRef<Path>, exposure: f64) -> Result<Clipped, ImageError> {
+        let (pixels, clipped) = png_file::shown(&self.colours()?, exposure);
+        write_pixels(path.as_ref(), self.width, self.height, &pixels)?;
+        Ok(clipped)
+    }
+
+    /// The bytes of the PNG file that [`Image::write_png`] writes.
+    ///
+    /// # Errors
+    /// As [`Image::colours`].
+    pub fn png(&self, exposure: f64) -> Result<Vec<u8>, ImageError> {
+        let (pixels, _) = png_file::shown(&self.colours()?, exposure);
+        png_file::encode("picture", self.width, self.height, &pixels)
+    }
+
     /// The channel called `name`.
     pub fn channel(&self, name: &str) -> Option<&Channel> {
         self.channels.iter().find(|channel| channel.name == name)
+    }
+
+    /// The channel called `name`, which must be there.
+    ///
+    /// # Errors
+    /// [`ImageError::MissingChannel`], listing the channels that are there.
+    pub fn require(&self, name: &str) -> Result<&Channel, ImageError> {
+        self.channel(name).ok_or_else(|| ImageError::MissingChannel {
+            name: name.into(),
+            known: self.names().join(", "),
+        })
+    }
+
+    /// The standard errors of the channel called `name`: `stderr.name`.
+    pub fn standard_error(&self, name: &str) -> Option<&Channel> {
+        let of = |channel: &&Channel| {
+            channel.name.strip_prefix(STANDARD_ERROR_PREFIX).is_some_and(|rest| rest == name)
+        };
+        self.channels.iter().find(of)
+    }
+
+    /// The names of the channels, in order.
+    pub fn names(&self) -> Vec<&str> {
+        self.channels.iter().map(|channel| channel.name.as_str()).collect()
+    }
+
+    /// The channels that are no standard errors.
+    pub fn quantities(&self) -> impl Iterator<Item = &Channel> {
+        self.channels.iter().filter(|c| !c.name.starts_with(STANDARD_ERROR_PREFIX))
+    }
+
+    /// Linear colours, row by row: `R`, `G`, `B`, or one quantity alone as grey.
+    ///
+    /// # Errors
+    /// As [`Image::check`]; [`ImageError::MissingChannel`] if it has neither.
+    pub fn colours(&self) -> Result<Vec<[f32; 3]>, ImageError> {
+        self.check()?;
+        let mut quantities = self.quantities();
+        let channels = match (quantities.next(), quantities.next()) {
+            (Some(grey), None) => [grey, grey, grey],
+            _ => [self.require("R")?, self.require("G")?, self.require("B")?],
+        };
+        let [r, g, b] = channels.map(|channel| channel.values.iter().copied());
+        Ok(r.zip(g).zip(b).map(|((r, g), b)| [r, g, b]).collect())
+    }
+
+    /// Number of values that are NaN or infinite, over all channels.
+    pub fn non_finite(&self) -> usize {
+        let values = self.channels.iter().flat_map(|channel| &channel.values);
+        values.filter(|value| !value.is_finite()).count()
+    }
+
+    /// Checks what reading guarantees, for an image made in memory: pixels, channels, distinct
+    /// names, one value per pixel and channel.
+    ///
+    /// # Errors
+    /// The first rule that is broken.
+    pub fn check(&self) -> Result<(), ImageError> {
+        let (width, height) = (self.width, self.height);
+        let expected = width.saturating_mul(height);
+        if expected == 0 || self.channels.is_empty() {
+            return Err(ImageError::Empty { width, height, channels: self.channels.len() });
+        }
+        for (i, channel) in self.channels.iter().enumerate() {
+            let name = || channel.name.clone();
+            if self.channels.iter().take(i).any(|other| other.name == channel.name) {
+                return Err(ImageError::DuplicateChannel { name: name() });
+            }
+            let got = channel.values.len();
+            if got != expected {
+                return Err(ImageError::Length { name: name(), width, height, expected, got });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Writes sRGB-encoded pixels as an 8-bit PNG, whole or not at all.
+///
+/// # Errors
+/// [`ImageError::Png`] if their number is not `width · height`; [`ImageError::File`] if the file
+/// cannot be written.
+pub fn write_pixels(
+    path: &Path,
+    width: usize,
+    height: usize,
+    pixels: &[[u8; 3]],
+) -> Result<(), ImageError> {
+    let bytes = png_file::encode(&path.display().to_string(), width, height, pixels)?;
+    Ok(store::atomic_write(path, &bytes)?)
+}
+
+/// Formats of image files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// OpenEXR: linear, any range.
+    Exr,
+    /// PNG: sRGB in [0, 1].
+    Png,
+}
+
+impl Format {
+    /// The format that the name of `path` ends in, in either case.
+    ///
+    /// # Errors
+    /// [`ImageError::Format`] if it is none of them.
+    pub fn of(path: &Path) -> Result<Self, ImageError> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        match extension.as_deref() {
+            Some("exr") => Ok(Self::Exr),
+            Some("png") => Ok(Self::Png),
+            _ => Err(ImageError::Format { path: path.into() }),
+        }
     }
 }

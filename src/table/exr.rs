@@ -117,21 +117,9 @@ impl Grid {
     pub fn to_exr(&self) -> Result<(Vec<u8>, String), TableError> {
         self.check()?;
         let fault = |reason: String| TableError::Malformed { origin: self.origin.clone(), reason };
-        let mut list = Vec::with_capacity(self.channels.len());
-        for channel in &self.channels {
-            let name = Text::new_or_none(&channel.name)
-                .ok_or_else(|| fault(format!("EXR cannot name a channel {:?}", channel.name)))?;
-            list.push(AnyChannel::new(name, FlatSamples::F32(channel.values.clone())));
-        }
-        let layer = Layer::new(
-            (self.x.count, self.y.count),
-            LayerAttributes::default(),
-            Encoding::SMALL_LOSSLESS,
-            AnyChannels::sort(list.into()),
-        );
-        let mut bytes = Cursor::new(Vec::new());
-        let image = Image::from_layer(layer);
-        image.write().non_parallel().to_buffered(&mut bytes).map_err(|e| fault(e.to_string()))?;
+        let channels: Vec<(&str, &[f32])> =
+            self.channels.iter().map(|c| (c.name.as_str(), c.values.as_slice())).collect();
+        let pixels = encode(&self.origin, self.x.count, self.y.count, &channels)?;
 
         let entry = |c: &Channel| ChannelEntry { name: c.name.clone(), unit: c.unit.clone() };
         let sidecar = Sidecar {
@@ -140,19 +128,53 @@ impl Grid {
             channel: self.channels.iter().map(entry).collect(),
         };
         let text = toml::to_string(&sidecar).map_err(|e| fault(e.to_string()))?;
-        Ok((bytes.into_inner(), text))
+        Ok((pixels, text))
     }
 }
 
-struct Decoded {
+/// The pixels of an EXR file.
+pub(crate) struct Decoded {
+    /// Pixels across.
+    pub(crate) width: usize,
+    /// Pixels down.
+    pub(crate) height: usize,
+    /// Name and values of every channel, in the order of the file.
+    pub(crate) channels: Vec<(String, Vec<f32>)>,
+}
+
+/// An EXR file of f32 channels, losslessly packed; `origin` names it in messages. The same pixels
+/// always give the same bytes.
+///
+/// # Errors
+/// [`TableError::Malformed`] if the encoder refuses a name or the numbers of values.
+pub(crate) fn encode(
+    origin: &str,
     width: usize,
     height: usize,
-    channels: Vec<(String, Vec<f32>)>,
+    channels: &[(&str, &[f32])],
+) -> Result<Vec<u8>, TableError> {
+    let fault = |reason: String| TableError::Malformed { origin: origin.into(), reason };
+    let mut list = Vec::with_capacity(channels.len());
+    for (name, values) in channels {
+        let name = Text::new_or_none(name)
+            .ok_or_else(|| fault(format!("EXR cannot name a channel {name:?}")))?;
+        list.push(AnyChannel::new(name, FlatSamples::F32(values.to_vec())));
+    }
+    let layer = Layer::new(
+        (width, height),
+        LayerAttributes::default(),
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort(list.into()),
+    );
+    let mut bytes = Cursor::new(Vec::new());
+    let image = Image::from_layer(layer);
+    image.write().non_parallel().to_buffered(&mut bytes).map_err(|e| fault(e.to_string()))?;
+    Ok(bytes.into_inner())
 }
 
 /// Decodes after checking that the header asks for something that this crate reads and that the
 /// file can hold.
-fn decode(origin: &str, bytes: &[u8]) -> Result<Decoded, TableError> {
+pub(crate) fn decode(origin: &str, bytes: &[u8]) -> Result<Decoded, TableError> {
     let fault = |reason: String| TableError::Malformed { origin: origin.into(), reason };
     let attempt = || {
         let meta = MetaData::read_from_buffered(Cursor::new(bytes), true)

@@ -1,12 +1,18 @@
 //! Printed and found: claims of papers with this run's numbers beside them.
 
 use super::Evidence;
+use crate::effects::registry::Finding;
 use crate::report::document::{Cell, Column, Section, Table, Verdict};
 
 pub(super) fn section(evidence: &Evidence<'_>) -> Section {
+    table_section(&evidence.study.findings)
+}
+
+/// Claims with what is found.
+pub(super) fn table_section(findings: &[Finding]) -> Section {
     let section = Section::new("Printed and found");
-    if evidence.study.findings.is_empty() {
-        return section.paragraph("No printed claim is checked for this effect.");
+    if findings.is_empty() {
+        return section.paragraph("No printed claim is checked here.");
     }
     let mut table = Table::new(
         "What is printed, what holds, and the command that shows it.",
@@ -18,7 +24,7 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
             Column::code("command"),
         ],
     );
-    for finding in &evidence.study.findings {
+    for finding in findings {
         let verdict = if finding.verdict == "holds" { Verdict::Pass } else { Verdict::Warn };
         table.push(vec![
             Cell::text(finding.place.clone()),

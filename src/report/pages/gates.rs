@@ -26,7 +26,7 @@ pub(super) fn section(gates: &[GateLine]) -> Section {
     if gates.is_empty() {
         return section.block(Block::Notice {
             level: NoticeLevel::Warning,
-            text: "No gate holds this effect: nothing would notice a change.".into(),
+            text: "No gate holds this page: nothing would notice a change.".into(),
         });
     }
     let mut table = Table::new(

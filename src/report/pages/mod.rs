@@ -9,6 +9,7 @@ mod findings;
 mod fits;
 mod gates;
 mod index;
+mod scenes;
 
 use std::path::Path;
 
@@ -23,6 +24,7 @@ use crate::validate::study::Study;
 
 pub use gates::GateLine;
 pub use index::index_page;
+pub use scenes::{SceneEvidence, scenes_page};
 
 /// Everything a page of an effect is made of.
 #[derive(Debug, Clone, Copy)]

@@ -1,0 +1,157 @@
+//! `render`: the lobe of a scratch under area lights, by the reference and by each approximation.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use clap::{Args, ValueEnum};
+use indicatif::ProgressBar;
+
+use super::Ending;
+use super::context::Context;
+use super::progress;
+use super::render_table::{Summary, text};
+use crate::gpu::{self, Device, NoDevice};
+use crate::render::image::Image;
+use crate::render::scene::{FIGURES, SHEET};
+use crate::render::sheet::comparison;
+use crate::render::{Backend, Event, RenderedScene, Resources, Scene, render_scene};
+use crate::table::store::atomic_write;
+
+const MORE: &str = "\
+Writes into DIR: reference, monte_carlo where the scene asks for it, one image per approximation
+(NAME.exr linear f32, NAME.png exposed), where it errs (NAME.error.png, relative to the root mean
+square of the reference, with its scale, and NAME.error.exr), all of them beside each other
+(sheet.png: reference and approximations in the order of the scene; below, Monte Carlo and the
+errors), and scene.json.
+
+Exit code 1 if an approximation is over the budget of the scene.
+
+Example:
+  striae render data/scenes/lobe_sphere.toml -o lobe_sphere";
+
+/// Render a scene: reference, approximations, errors
+#[derive(Debug, Args)]
+#[command(after_help = MORE)]
+pub(super) struct Arguments {
+    /// The scene
+    #[arg(value_name = "SCENE.toml")]
+    scene: PathBuf,
+    /// Folder to write to, made if it is not there [default: the scene's name]
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Where the forms run [default: the GPU if there is one]
+    #[arg(long, value_enum)]
+    backend: Option<BackendName>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum BackendName {
+    /// On the device; exit code 4 if there is none
+    Gpu,
+    /// On f32 lanes
+    Cpu,
+}
+
+/// Renders, writes and prints.
+pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
+    let project = context.project()?;
+    let mut scene = Scene::read(&arguments.scene)?;
+    if let (Some(options), Some(seed)) = (&mut scene.monte_carlo, context.seed) {
+        options.seed = seed;
+    }
+    let device = device(arguments.backend, context)?;
+    let backend = device.as_ref().map_or(Backend::Lanes, Backend::Device);
+    let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from(&scene.name));
+    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+
+    let (fits, data) = (project.fits(), project.data());
+    let mut keeper = Keeper {
+        folder: &folder,
+        exposure: scene.view.exposure,
+        bar: progress::bar(context.output, 0),
+        failed: None,
+    };
+    let resources = Resources { fits: &fits, data: &data };
+    let rendered = render_scene(&scene, resources, backend, &mut |event| keeper.see(event));
+    keeper.bar.finish_and_clear();
+    if let Some(error) = keeper.failed.take() {
+        return Err(error);
+    }
+    let rendered = rendered.with_context(|| {
+        format!("{}: what is finished is kept in {}", scene.name, folder.display())
+    })?;
+    write_comparison(&scene, &rendered, &folder)?;
+    let summary = Summary::new(&scene, &rendered);
+    let json = serde_json::to_string_pretty(&summary)?;
+    atomic_write(&folder.join(format!("{FIGURES}.json")), format!("{json}\n").as_bytes())?;
+    context.output.result(&summary, || text(&summary))?;
+    let over: Vec<String> = rendered
+        .approximations
+        .iter()
+        .flat_map(|approximation| approximation.over_budget())
+        .collect();
+    over.iter().for_each(|line| context.output.note(line));
+    Ok(if over.is_empty() { Ending::Done } else { Ending::GateFailed })
+}
+
+/// The device, or none where the lanes are to be used.
+fn device(wanted: Option<BackendName>, context: &Context) -> Result<Option<Device>, NoDevice> {
+    match wanted {
+        Some(BackendName::Cpu) => Ok(None),
+        Some(BackendName::Gpu) => Device::open().map(Some),
+        None => match Device::open() {
+            Ok(device) => Ok(Some(device)),
+            Err(error) if gpu::required() => Err(error),
+            Err(error) => {
+                context.output.note(&format!("note: rendering on CPU lanes: {error}"));
+                Ok(None)
+            }
+        },
+    }
+}
+
+/// Writes images as they are finished and moves the progress bar.
+struct Keeper<'a> {
+    folder: &'a Path,
+    exposure: f64,
+    bar: ProgressBar,
+    failed: Option<anyhow::Error>,
+}
+
+impl Keeper<'_> {
+    fn see(&mut self, event: Event<'_>) {
+        match event {
+            Event::Tile { name, done, of } => {
+                self.bar.set_length(of as u64);
+                self.bar.set_position(done as u64);
+                self.bar.set_message(name.to_owned());
+            }
+            Event::Image { name, image, whole } => {
+                let name = if whole { name.to_owned() } else { format!("{name}.partial") };
+                let written = self.write(&name, image);
+                if self.failed.is_none() {
+                    self.failed = written.err();
+                }
+            }
+        }
+    }
+
+    fn write(&self, name: &str, image: &Image) -> anyhow::Result<()> {
+        image.write_exr(self.folder.join(format!("{name}.exr")))?;
+        image.write_png(self.folder.join(format!("{name}.png")), self.exposure.log2())?;
+        Ok(())
+    }
+}
+
+/// Error maps, and the contact sheet: images above, errors below.
+fn write_comparison(scene: &Scene, rendered: &RenderedScene, folder: &Path) -> anyhow::Result<()> {
+    let approximations = &rendered.approximations;
+    for approximation in approximations {
+        let file = |extension| folder.join(format!("{}.error.{extension}", approximation.name));
+        approximation.error.write_png(file("png"), true)?;
+        approximation.error.image().write_exr(file("exr"))?;
+    }
+    let (sheet, _) = comparison(scene, rendered)?;
+    sheet.write_png(folder.join(format!("{SHEET}.png")), scene.view.exposure.log2())?;
+    Ok(())
+}

@@ -1,0 +1,159 @@
+//! Gates on scenes: the picture that an approximation makes, against the reference.
+
+use std::collections::BTreeMap;
+
+use super::{Evidence, Gate, GateError, Metric, Precision, Reached};
+use crate::gpu::Device;
+use crate::render::light_form::LightForm;
+use crate::render::{Backend, JudgedScene, Metrics, RenderError, Resources, ShadedBy};
+
+/// What the subject of a gate on a scene begins with.
+pub const SCENES: &str = "scenes/";
+
+/// A scene and one approximation of it.
+#[derive(Debug)]
+pub(super) struct SceneSubject<'e> {
+    scene: &'e JudgedScene,
+    by: ShadedBy,
+}
+
+impl Gate {
+    /// Scene and approximation, if the subject is `scenes/NAME#approximation`.
+    pub(super) fn scene(&self) -> Option<(&str, &str)> {
+        let rest = self.subject.strip_prefix(SCENES)?;
+        Some(rest.split_once('#').unwrap_or((rest, "")))
+    }
+}
+
+/// The scenes that gates have named, with their references.
+#[derive(Debug, Default)]
+pub(super) struct Scenes {
+    known: BTreeMap<String, JudgedScene>,
+}
+
+impl Scenes {
+    /// Scene and approximation of a gate, the reference rendered when the scene is first named.
+    ///
+    /// # Errors
+    /// [`GateError`] if there is no such scene or approximation, or the scene is unusable.
+    pub(super) fn subject(
+        &mut self,
+        gate: &Gate,
+        root: &std::path::Path,
+    ) -> Result<SceneSubject<'_>, GateError> {
+        let (name, approximation) = gate.scene().unwrap_or_default();
+        if !self.known.contains_key(name) {
+            let path = root.join("data/scenes").join(format!("{name}.toml"));
+            if name.contains("..") || !path.is_file() {
+                return Err(gate.fault(format!("there is no scene data/scenes/{name}.toml")));
+            }
+            let (fits, data) = (root.join("fits"), root.join("data/measured"));
+            let judged = JudgedScene::read(&path, Resources { fits: &fits, data: &data })?;
+            self.known.insert(name.to_owned(), judged);
+        }
+        let scene = self.known.get(name).ok_or_else(|| gate.fault("no scene".to_owned()))?;
+        let found = scene.approximations().iter().find(|by| by.name == approximation);
+        let by = found.cloned().ok_or_else(|| {
+            let known: Vec<&str> =
+                scene.approximations().iter().map(|by| by.name.as_str()).collect();
+            GateError::UnknownMember {
+                gate: gate.index,
+                line: gate.line,
+                subject: gate.subject.clone(),
+                known: known.join(", "),
+            }
+        })?;
+        Ok(SceneSubject { scene, by })
+    }
+}
+
+impl SceneSubject<'_> {
+    /// Measures the picture; on lanes without a device.
+    pub(super) fn reached(
+        &self,
+        gate: &Gate,
+        device: Option<&Device>,
+    ) -> Result<Reached, RenderError> {
+        self.reached_by(gate, &self.by, device)
+    }
+
+    /// Names of the constants of its forms.
+    pub(super) fn constants(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for form in [&self.by.sphere, &self.by.polygon].into_iter().flatten() {
+            for parameter in form.form.parameters() {
+                if !names.contains(&parameter.name) {
+                    names.push(parameter.name.clone());
+                }
+            }
+        }
+        names
+    }
+
+    /// The same with `constant` moved by the relative step in every form that has it.
+    pub(super) fn perturbed(
+        &self,
+        gate: &Gate,
+        constant: &str,
+        step: f64,
+        device: Option<&Device>,
+    ) -> Result<Reached, RenderError> {
+        let mut by = self.by.clone();
+        for form in [&mut by.sphere, &mut by.polygon].into_iter().flatten() {
+            move_constant(form, constant, step);
+        }
+        self.reached_by(gate, &by, device)
+    }
+
+    fn reached_by(
+        &self,
+        gate: &Gate,
+        by: &ShadedBy,
+        device: Option<&Device>,
+    ) -> Result<Reached, RenderError> {
+        let backend = match (gate.precision, device) {
+            (Precision::Device, Some(device)) => Backend::Device(device),
+            _ => Backend::Lanes,
+        };
+        let found = self.scene.metrics(by, backend)?;
+        let (value, at) = figure(gate.metric, &found);
+        Ok(Reached { value, at, of: None, count: self.scene.values() })
+    }
+}
+
+fn move_constant(form: &mut LightForm, constant: &str, step: f64) {
+    let parameters = form.form.parameters().iter().zip(&mut form.constants);
+    for (parameter, value) in parameters {
+        if parameter.name == constant {
+            let wide = f64::from(*value);
+            *value = (if wide == 0.0 { step } else { wide * (1.0 + step) }) as f32;
+        }
+    }
+}
+
+/// The metric's value and its place; not a number for a metric that pictures do not have, which
+/// the gate file refuses.
+fn figure(metric: Metric, found: &Metrics) -> (f64, BTreeMap<String, f64>) {
+    let place = || {
+        let (x, y) = (found.at.x as f64, found.at.y as f64);
+        BTreeMap::from([("x".to_owned(), x), ("y".to_owned(), y)])
+    };
+    match metric {
+        Metric::RelL2 => (found.relative_rms, BTreeMap::new()),
+        Metric::Rms => (found.rms, BTreeMap::new()),
+        Metric::MaxAbs => (found.max, place()),
+        Metric::Bias => (found.mean.abs(), BTreeMap::new()),
+        Metric::Flip => (found.flip, BTreeMap::new()),
+        Metric::P50 | Metric::P95 | Metric::P99 | Metric::MaxRel | Metric::Drift => {
+            (f64::NAN, BTreeMap::new())
+        }
+    }
+}
+
+impl Evidence {
+    /// The scene and the approximation that the gate names.
+    pub(super) fn scene(&mut self, gate: &Gate) -> Result<SceneSubject<'_>, GateError> {
+        let root = self.root().to_path_buf();
+        self.scenes().subject(gate, &root)
+    }
+}

@@ -1,0 +1,110 @@
+//! Where kernels run: on the device, or on the CPU's f32 lanes. The text is the same.
+
+use std::ops::RangeInclusive;
+
+use rayon::prelude::*;
+
+use crate::gpu::{self, Device};
+
+use super::error::RenderError;
+use super::kernel::Kernel;
+
+/// Points that one task on the CPU takes: a few tasks per thread, within these bounds.
+const TASK_POINTS: RangeInclusive<usize> = 16..=512;
+
+/// Where kernels run.
+#[derive(Debug, Clone, Copy)]
+pub enum Backend<'d> {
+    /// The GPU.
+    Device(&'d Device),
+    /// f32 lanes on the CPU.
+    Lanes,
+}
+
+impl Backend<'_> {
+    /// The device, or `CPU, f32 lanes`.
+    pub fn description(&self) -> String {
+        match self {
+            Self::Device(device) => device.description().to_string(),
+            Self::Lanes => "CPU, f32 lanes".to_owned(),
+        }
+    }
+}
+
+/// Kernels made ready, whose colours add up.
+pub(super) struct Painter<'k, 'd> {
+    kernels: &'k [Kernel],
+    compiled: Option<Vec<gpu::Kernel<'d>>>,
+}
+
+impl<'k, 'd> Painter<'k, 'd> {
+    /// Compiles for a device; lanes are compiled with their form.
+    pub(super) fn new(kernels: &'k [Kernel], backend: Backend<'d>) -> Result<Self, RenderError> {
+        let compiled = match backend {
+            Backend::Lanes => None,
+            Backend::Device(device) => Some(
+                kernels
+                    .iter()
+                    .map(|kernel| device.compile(&kernel.form, &kernel.constants))
+                    .collect::<Result<_, _>>()?,
+            ),
+        };
+        Ok(Self { kernels, compiled })
+    }
+
+    /// R, G and B at every row of the input columns.
+    pub(super) fn colours(&self, inputs: &[Vec<f32>]) -> Result<Vec<Vec<f32>>, RenderError> {
+        let rows = inputs.first().map_or(0, Vec::len);
+        let mut sums = vec![vec![0.0_f32; rows]; 3];
+        let mut add = |values: Vec<Vec<f32>>| {
+            for (sum, column) in sums.iter_mut().zip(values) {
+                sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += value);
+            }
+        };
+        match &self.compiled {
+            Some(compiled) => {
+                for kernel in compiled {
+                    add(kernel.evaluate(inputs)?);
+                }
+            }
+            None => {
+                for kernel in self.kernels {
+                    add(on_lanes(kernel, inputs, rows)?);
+                }
+            }
+        }
+        Ok(sums)
+    }
+}
+
+fn on_lanes(
+    kernel: &Kernel,
+    inputs: &[Vec<f32>],
+    rows: usize,
+) -> Result<Vec<Vec<f32>>, RenderError> {
+    let task = rows
+        .div_ceil(4 * rayon::current_num_threads())
+        .clamp(*TASK_POINTS.start(), *TASK_POINTS.end());
+    let starts: Vec<usize> = (0..rows).step_by(task).collect();
+    let parts: Vec<Vec<Vec<f32>>> = starts
+        .into_par_iter()
+        .map_init(
+            || kernel.form.evaluator_f32(),
+            |evaluator, start| {
+                let range = start..rows.min(start + task);
+                let columns: Vec<&[f32]> =
+                    inputs.iter().filter_map(|column| column.get(range.clone())).collect();
+                let mut values = Vec::new();
+                evaluator.eval_into(&kernel.constants, &columns, &mut values)?;
+                Ok(values)
+            },
+        )
+        .collect::<Result<_, RenderError>>()?;
+    let mut whole = vec![Vec::new(); 3];
+    for part in parts {
+        for (column, values) in whole.iter_mut().zip(part) {
+            column.extend(values);
+        }
+    }
+    Ok(whole)
+}

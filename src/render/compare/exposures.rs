@@ -1,0 +1,124 @@
+//! The exposures of HDR-FLIP: from where the brightest pixel is just below the shoulder of the tone
+//! curve to where the median is.
+
+use super::CompareError;
+use crate::render::image::Image;
+
+/// ACES curve as (numerator, denominator), highest power first; the curve's own gain of 0.6
+/// included.
+const NUMERATOR: [f64; 3] = [0.6 * 0.6 * 2.51, 0.6 * 0.03, 0.0];
+const DENOMINATOR: [f64; 3] = [0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14];
+
+/// What the shoulder maps to.
+const SHOULDER: f64 = 0.85;
+
+/// Exposures at which HDR-FLIP looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exposures {
+    /// First exposure, in stops.
+    pub start: f64,
+    /// Last exposure, in stops.
+    pub stop: f64,
+    /// How many there are, evenly spaced, both ends among them.
+    pub count: usize,
+    /// Whether they follow the standard, or come from lit pixels alone.
+    pub rule: ExposureRule,
+}
+
+/// Where exposures come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExposureRule {
+    /// From all pixels of the reference, as HDR-FLIP says.
+    Standard,
+    /// From pixels that are not black: where more than half are, the standard has no last exposure.
+    LitPixels,
+}
+
+impl ExposureRule {
+    /// The name of the rule.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Standard => "standard",
+            Self::LitPixels => "lit pixels",
+        }
+    }
+}
+
+impl Exposures {
+    /// The exposures of the standard. Where the reference's median luminance is 0 it defines none;
+    /// then the median of the lit pixels is taken, and [`Exposures::rule`] says so.
+    ///
+    /// # Errors
+    /// [`CompareError::Image`] without colours; [`CompareError::Setting`] if no pixel is lit.
+    pub fn of(reference: &Image) -> Result<Self, CompareError> {
+        let colours = reference
+            .colours()
+            .map_err(|source| CompareError::Image { which: "reference", source: source.into() })?;
+        let luminance = |c: [f32; 3]| {
+            let [r, g, b] = c.map(|component| f64::from(component).max(0.0));
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let mut luminances: Vec<f64> =
+            colours.into_iter().map(luminance).filter(|y| y.is_finite()).collect();
+        luminances.sort_by(f64::total_cmp);
+        let median = |sorted: &[f64]| sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+        let brightest = luminances.last().copied().unwrap_or_default();
+        if brightest <= 0.0 {
+            return Err(CompareError::Setting {
+                what: "brightest luminance of the reference, which sets the exposures of HDR-FLIP",
+                expected: "a positive number",
+                got: brightest,
+            });
+        }
+        let (middle, rule) = match median(&luminances) {
+            middle if middle > 0.0 => (middle, ExposureRule::Standard),
+            _ => {
+                let lit = luminances.partition_point(|y| *y <= 0.0);
+                (median(luminances.get(lit..).unwrap_or_default()), ExposureRule::LitPixels)
+            }
+        };
+        let shoulder = shoulder();
+        let (start, stop) = ((shoulder / brightest).log2(), (shoulder / middle).log2());
+        Ok(Self { start, stop, count: (stop - start).ceil().max(2.0) as usize, rule })
+    }
+
+    /// The exposures, in stops.
+    pub fn stops(&self) -> impl Iterator<Item = f64> + use<> {
+        let (start, step) = (self.start, (self.stop - self.start) / (self.count - 1) as f64);
+        (0..self.count).map(move |i| start + i as f64 * step)
+    }
+}
+
+/// The ACES curve of a linear component, not clamped.
+pub(super) fn aces(x: f64) -> f64 {
+    let horner = |[a, b, c]: [f64; 3]| (a * x + b) * x + c;
+    horner(NUMERATOR) / horner(DENOMINATOR)
+}
+
+/// The larger component that the ACES curve maps to [`SHOULDER`].
+fn shoulder() -> f64 {
+    let [a, b, c] = [0, 1, 2].map(|i| NUMERATOR[i] - SHOULDER * DENOMINATOR[i]);
+    let middle = -0.5 * b / a;
+    middle + (middle * middle - c / a).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shoulder_maps_to_its_value() {
+        assert!((aces(shoulder()) - SHOULDER).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_dark_background_is_said() {
+        let image = |colours: &[[f32; 3]]| Image::rgb(colours.len(), 1, colours);
+        let lit = Exposures::of(&image(&[[1.0; 3], [4.0; 3], [2.0; 3]])).expect("lit");
+        assert_eq!(lit.rule, ExposureRule::Standard);
+        assert!((lit.stop - lit.start - 1.0).abs() < 1e-12 && lit.count == 2);
+        let dark = Exposures::of(&image(&[[0.0; 3], [0.0; 3], [2.0; 3]])).expect("one is lit");
+        assert_eq!((dark.rule, dark.stop), (ExposureRule::LitPixels, dark.start));
+        assert!(Exposures::of(&image(&[[0.0; 3]])).is_err());
+    }
+}
