@@ -22,11 +22,11 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
             .paragraph("Costs below are those of the f32 lanes on one core."),
     };
     let groups: Vec<&str> = groups(costs);
-    for (number, group) in groups.iter().enumerate() {
-        let (points, yardstick) = errors(evidence, group);
-        if points.len() < 2 {
-            continue;
-        }
+    let drawn = groups
+        .iter()
+        .map(|group| (group, errors(evidence, group)))
+        .filter(|(_, (points, _))| points.len() > 1);
+    for (number, (group, (points, yardstick))) in drawn.enumerate() {
         let (axis, where_measured) = match &costs.adapter {
             Measured::Value(_) => (Axis::log("cost on the device", "ns per evaluation"), "device"),
             Measured::NotMeasured(_) => {
