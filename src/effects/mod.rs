@@ -2,6 +2,7 @@
 
 pub mod area_light;
 pub mod exhibit;
+pub mod fitted_form;
 pub mod footprint;
 pub mod fresnel;
 pub mod registry;

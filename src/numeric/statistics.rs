@@ -48,6 +48,17 @@ pub fn percentile(values: &[f64], percent: f64) -> f64 {
     sorted[below] + fraction * (sorted[above] - sorted[below])
 }
 
+/// Error relative in the L2 norm, √(Σ(got − exact)² / Σ exact²), over pairs of got and exact; NaN if
+/// every exact value is 0.
+pub fn relative_l2(pairs: impl IntoIterator<Item = (f64, f64)>) -> f64 {
+    let (errors, norms): (Vec<f64>, Vec<f64>) = pairs
+        .into_iter()
+        .map(|(got, exact)| ((got - exact) * (got - exact), exact * exact))
+        .unzip();
+    let norm = sum(norms);
+    if norm > 0.0 || norm.is_nan() { (sum(errors) / norm).sqrt() } else { f64::NAN }
+}
+
 /// The largest of `values`, NaN as soon as one is NaN; 0 of none.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |largest: f64, value| {
@@ -64,6 +75,19 @@ mod tests {
         assert_eq!(sum([1.0, 1e100, 1.0, -1e100]), 2.0);
         assert_eq!(sum([]), 0.0);
         assert_eq!(sum([f64::INFINITY, 1.0]), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_relative_error_needs_something_to_be_relative_to() {
+        assert_eq!(relative_l2([(3.0, 0.0), (4.0, 8.0)]), 0.625);
+        assert!(relative_l2([(1.0, 0.0)]).is_nan() && relative_l2([(f64::NAN, 1.0)]).is_nan());
+    }
+
+    #[test]
+    fn the_largest_keeps_a_nan() {
+        assert_eq!(largest([1.0, 3.0, -4.0]), 3.0);
+        assert_eq!(largest([]), 0.0);
+        assert!(largest([1.0, f64::NAN, 2.0]).is_nan());
     }
 
     #[test]

@@ -4,8 +4,10 @@
 use rayon::prelude::*;
 
 use crate::effects::exhibit::ExhibitError;
+use crate::effects::fitted_form::FittedForm;
 use crate::effects::registry::{DomainError, FittedConstants, FormEntry};
-use crate::form::{Form, FormError};
+use crate::form::FormError;
+use crate::numeric::statistics;
 
 use super::forms::FORMS;
 
@@ -31,25 +33,15 @@ impl From<NotMeasured> for ExhibitError {
 
 /// A form and its constants: those of a fit, or of its text where there is none.
 #[derive(Debug)]
-pub(super) struct Approximation {
-    form: Form,
-    constants: Vec<f64>,
-}
+pub(super) struct Approximation(FittedForm);
 
 impl Approximation {
     /// The form and the constants of `footprint/fit`; `form` is the name of its form.
     pub(super) fn of(form: &str, fit: &str, fitted: &FittedConstants) -> Result<Self, NotMeasured> {
         let name = format!("footprint/{form}");
         let entry: Option<&FormEntry> = FORMS.iter().find(|entry| entry.name == name);
-        let form = entry.ok_or(NotMeasured::Unknown(name))?.load()?;
-        let values = fitted.0.get(&format!("footprint/{fit}"));
-        let constants = form
-            .parameters()
-            .iter()
-            .map(|p| values.and_then(|v| v.get(&p.name).copied()).or(p.default))
-            .map(|value| value.unwrap_or(f64::NAN))
-            .collect();
-        Ok(Self { form, constants })
+        let entry = entry.ok_or(NotMeasured::Unknown(name))?;
+        Ok(Self(FittedForm::new(entry, &format!("footprint/{fit}"), fitted)?))
     }
 
     /// The form of the fit of the same name.
@@ -60,13 +52,14 @@ impl Approximation {
     /// Values at named columns, in f64.
     pub(super) fn values(&self, columns: &[(&str, &[f64])]) -> Result<Vec<f64>, NotMeasured> {
         let inputs: Vec<&[f64]> = self
-            .form
+            .0
+            .form()
             .input_columns()
             .iter()
             .filter_map(|input| columns.iter().find(|(name, _)| name == input))
             .map(|(_, values)| *values)
             .collect();
-        Ok(self.form.eval_f64(&self.constants, &inputs)?.into_iter().next().unwrap_or_default())
+        Ok(self.0.double(&inputs)?)
     }
 
     /// Values over the offsets of one footprint.
@@ -119,7 +112,5 @@ impl Line {
 
 /// ‖values − exact‖ / ‖exact‖.
 pub(super) fn relative_l2(values: &[f64], exact: &[f64]) -> f64 {
-    let squares = |terms: &mut dyn Iterator<Item = f64>| crate::numeric::statistics::sum(terms);
-    let error = squares(&mut values.iter().zip(exact).map(|(v, e)| (v - e) * (v - e)));
-    (error / squares(&mut exact.iter().map(|e| e * e))).sqrt()
+    statistics::relative_l2(values.iter().copied().zip(exact.iter().copied()))
 }

@@ -5,11 +5,12 @@ use std::f64::consts::PI;
 use super::amplitude::depth_factor;
 use super::ensemble::{Base, Model, PUBLISHED, REFERENCE};
 use super::exhibits::{
-    DepthPhase, EnergyStudy, EnsembleStudy, Sampling, energy_ratio, relative_rms, response_errors,
+    DepthPhase, EnergyStudy, EnsembleStudy, Sampling, energy_ratio, response_errors,
     side_lobe_energy,
 };
 use super::surface::{Coherence, Directions, Scratch, mirror_amplitude};
 use crate::effects::registry::{Finding, FittedConstants};
+use crate::numeric::statistics::relative_l2;
 
 const COMMAND: &str = "striae report";
 
@@ -222,7 +223,7 @@ fn infinite_scratch() -> Finding {
 
 /// Eq. 9–11 against the moduli of eq. 4 and 8.
 fn squared_factors() -> Finding {
-    let depth = relative_rms(depths().map(|depth| {
+    let depth = relative_l2(depths().map(|depth| {
         let printed = 2.0 - 2.0 * core_math::cos(4.0 * PI * depth / 0.55);
         (printed, depth_factor(depth, 0.55, 2.0).norm_sqr())
     }));

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::hard_cases;
 use super::regions::Row;
 use crate::effects::registry::{FormValues, Law};
+use crate::numeric::statistics::largest;
 
 const SINGLE: &[&str] = &["scratch_reflectance", "scratched_mirror_reflectance"];
 
@@ -174,8 +175,5 @@ fn midpoints(from: f64, to: f64, count: u32) -> impl Iterator<Item = (f64, f64)>
 
 /// Largest violation, 0 if none is positive; NaN if a value is not finite, so that it cannot pass.
 fn worst(violations: impl Iterator<Item = f64>) -> f64 {
-    violations.fold(
-        0.0,
-        |worst, v| if v.is_finite() && !f64::is_nan(worst) { v.max(worst) } else { f64::NAN },
-    )
+    largest(violations.map(|v| if v.is_finite() { v } else { f64::NAN }))
 }

@@ -93,7 +93,7 @@ fn forms_are_as_accurate_as_measured() {
                 pairs.entry(group).or_default().push((f64::from(*value), exact));
             }
             for pairs in pairs.into_values() {
-                worst = worst.max(exhibits::relative_rms(pairs));
+                worst = worst.max(crate::numeric::statistics::relative_l2(pairs));
             }
             println!("{} {}: {worst:.3e}", entry.name, region.name);
             let form = |name: &str| entry.name.ends_with(&format!("/{name}"));

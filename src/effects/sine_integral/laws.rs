@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::reference::sine_integral;
 use crate::effects::registry::Law;
+use crate::numeric::statistics::largest;
 
 /// A form as the laws see it: columns of inputs to values.
 type Evaluator<'a> = &'a dyn Fn(&[Vec<f32>]) -> Vec<f32>;
@@ -74,13 +75,13 @@ fn oddness(form: Evaluator) -> f64 {
         column(super::hard_cases::hard_cases().columns.into_iter().flat_map(|c| c.values));
     let mirrored = x.iter().map(|x| -x).collect();
     let (values, mirrored) = (form(&[x]), form(&[mirrored]));
-    worst(values.iter().zip(&mirrored).map(|(a, b)| (f64::from(*a) + f64::from(*b)).abs()))
+    largest(values.iter().zip(&mirrored).map(|(a, b)| (f64::from(*a) + f64::from(*b)).abs()))
 }
 
 fn tail_excess(form: Evaluator) -> f64 {
     let x: Vec<f32> = column((0..4000).map(|i| 1e3 * 10_f64.powf(f64::from(i) / 4000.0)));
     let values = form(std::slice::from_ref(&x));
-    worst(
+    largest(
         x.iter().zip(&values).map(|(x, v)| (f64::from(*v) - FRAC_PI_2).abs() - 1.0 / f64::from(*x)),
     )
 }
@@ -94,7 +95,7 @@ fn tail_bias(form: Evaluator) -> f64 {
     let values = form(std::slice::from_ref(&x));
     let scaled: Vec<f64> =
         x.iter().zip(&values).map(|(x, v)| f64::from(*x) * (f64::from(*v) - FRAC_PI_2)).collect();
-    worst(
+    largest(
         scaled
             .chunks(POINTS_PER_PERIOD)
             .map(|period| crate::numeric::statistics::mean(period).abs()),
@@ -106,20 +107,14 @@ fn excess_over_maximum(form: Evaluator) -> f64 {
     let hard = super::hard_cases::hard_cases().columns.into_iter().flat_map(|c| c.values);
     let x: Vec<f32> = column(grid.chain(hard));
     let maximum = sine_integral(PI);
-    worst(form(&[x]).iter().map(|v| f64::from(*v).abs() - maximum))
+    largest(form(&[x]).iter().map(|v| f64::from(*v).abs() - maximum))
 }
 
 fn largest_fall(form: Evaluator) -> f64 {
     let x: Vec<f32> = column((0..=4096).map(|i| PI * f64::from(i) / 4096.0));
-    worst(form(&[x]).windows(2).map(|pair| f64::from(pair[0]) - f64::from(pair[1])))
+    largest(form(&[x]).windows(2).map(|pair| f64::from(pair[0]) - f64::from(pair[1])))
 }
 
 fn column(points: impl Iterator<Item = f64>) -> Vec<f32> {
     points.map(|x| x as f32).collect()
-}
-
-/// Largest violation, 0 if none is positive; NaN if a value is, so that it cannot pass.
-fn worst(violations: impl Iterator<Item = f64>) -> f64 {
-    violations
-        .fold(0.0, |worst, v| if v.is_nan() || worst.is_nan() { f64::NAN } else { v.max(worst) })
 }

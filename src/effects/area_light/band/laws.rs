@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::REFERENCE;
 use super::hard_cases::hard_cases;
 use crate::effects::registry::{FormValues, Law};
+use crate::numeric::statistics::largest;
 
 const REFERENCES: &[&str] = &[REFERENCE.name];
 
@@ -88,7 +89,7 @@ fn antisymmetry(form: FormValues) -> f64 {
     x1.extend(&bounds);
     let swapped = form(&[x1.clone(), x0.clone()]);
     let values = form(&[x0, x1]);
-    worst(values.iter().zip(&swapped).map(|(a, b)| (f64::from(*a) + f64::from(*b)).abs()))
+    largest(values.iter().zip(&swapped).map(|(a, b)| (f64::from(*a) + f64::from(*b)).abs()))
 }
 
 fn unevenness(form: FormValues) -> f64 {
@@ -96,7 +97,7 @@ fn unevenness(form: FormValues) -> f64 {
     let negative = |column: &[f32]| column.iter().map(|x| -x).collect::<Vec<f32>>();
     let mirrored = form(&[negative(&x1), negative(&x0)]);
     let values = form(&[x0, x1]);
-    worst(values.iter().zip(&mirrored).map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs()))
+    largest(values.iter().zip(&mirrored).map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs()))
 }
 
 fn not_positive(form: FormValues) -> f64 {
@@ -126,7 +127,7 @@ fn seam(form: FormValues) -> f64 {
     let first = form(&[a.clone(), b.clone()]);
     let second = form(&[b, c.clone()]);
     let whole = form(&[a, c]);
-    worst(first.iter().zip(&second).zip(&whole).map(|((p, q), w)| {
+    largest(first.iter().zip(&second).zip(&whole).map(|((p, q), w)| {
         let (parts, whole) = (f64::from(*p) + f64::from(*q), f64::from(*w));
         if parts == whole { 0.0 } else { ((parts - whole) / whole).abs() }
     }))
@@ -136,11 +137,5 @@ fn excess_over_total(form: FormValues) -> f64 {
     let reach: Vec<f32> =
         (0..2000).map(|i| 1e-3 * 1e8_f64.powf(f64::from(i) / 1999.0)).map(|x| x as f32).collect();
     let negative = reach.iter().map(|x| -x).collect();
-    worst(form(&[negative, reach]).iter().map(|v| f64::from(*v).abs() - TAU))
-}
-
-/// Largest violation, 0 if none is positive; NaN if a value is, so that it cannot pass.
-fn worst(violations: impl Iterator<Item = f64>) -> f64 {
-    violations
-        .fold(0.0, |worst, v| if v.is_nan() || worst.is_nan() { f64::NAN } else { v.max(worst) })
+    largest(form(&[negative, reach]).iter().map(|v| f64::from(*v).abs() - TAU))
 }

@@ -4,8 +4,9 @@
 use std::f64::consts::{PI, TAU};
 
 use super::sinc_squared_band;
+use crate::effects::fitted_form::FittedForm;
 use crate::effects::registry::{FittedConstants, FormEntry};
-use crate::form::{Form, FormError};
+use crate::form::FormError;
 
 /// Which part of the lobe [2πn, 2π(n + 1)].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,38 +34,19 @@ impl Part {
 
 /// A form with the constants that it ships with.
 #[derive(Debug)]
-pub(super) struct BandForm {
-    form: Form,
-    constants: Vec<f32>,
-}
+pub(super) struct BandForm(FittedForm);
 
 impl BandForm {
     /// `entry` with the constants of the fit of its name, or those in its text where there is none.
     pub(super) fn load(entry: &FormEntry, fitted: &FittedConstants) -> Result<Self, FormError> {
-        let form = entry.load()?;
-        let fit = fitted.0.get(entry.name);
-        let constants = form
-            .parameters()
-            .iter()
-            .map(|p| {
-                let known = fit.and_then(|constants| constants.get(&p.name)).copied();
-                known.or(p.default).map(|value| value as f32)
-            })
-            .collect::<Option<_>>()
-            .ok_or_else(|| FormError::Shape {
-                origin: entry.path.into(),
-                function: entry.function.into(),
-                what: "a constant has neither a fitted value nor one in the text".into(),
-            })?;
-        Ok(Self { form, constants })
+        FittedForm::new(entry, entry.name, fitted).map(Self)
     }
 
     /// Values in f32 on bands.
     pub(super) fn values(&self, bands: &[(f32, f32)]) -> Result<Vec<f32>, FormError> {
         let starts: Vec<f32> = bands.iter().map(|band| band.0).collect();
         let ends: Vec<f32> = bands.iter().map(|band| band.1).collect();
-        let columns = self.form.eval_f32(&self.constants, &[&starts, &ends])?;
-        Ok(columns.into_iter().next().unwrap_or_default())
+        self.0.single(&[&starts, &ends])
     }
 
     /// Relative errors on a part of the lobes `orders`.

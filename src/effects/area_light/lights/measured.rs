@@ -4,15 +4,13 @@ use rayon::prelude::*;
 
 use super::forms::FORMS;
 use crate::effects::exhibit::ExhibitError;
+use crate::effects::fitted_form::FittedForm;
 use crate::effects::registry::{FittedConstants, Reference};
-use crate::form::Form;
+use crate::numeric::statistics;
 use crate::table::Table;
 
 /// A form with the constants of its fit, or those of its text where it has no fit.
-pub(super) struct Loaded {
-    form: Form,
-    constants: Vec<f64>,
-}
+pub(super) struct Loaded(FittedForm);
 
 impl Loaded {
     /// The form `area_light/name`.
@@ -20,15 +18,7 @@ impl Loaded {
         let full = format!("area_light/{name}");
         let entry = FORMS.iter().find(|form| form.name == full);
         let entry = entry.ok_or_else(|| ExhibitError(format!("no form is called {full}")))?;
-        let form = entry.load().map_err(|error| ExhibitError(error.to_string()))?;
-        let known = fitted.0.get(&full);
-        let constants = form
-            .parameters()
-            .iter()
-            .map(|p| known.and_then(|values| values.get(&p.name)).copied().or(p.default))
-            .collect::<Option<_>>()
-            .ok_or_else(|| ExhibitError(format!("{full} has a constant without a value")))?;
-        Ok(Self { form, constants })
+        FittedForm::new(entry, &full, fitted).map(Self).map_err(|e| ExhibitError(e.to_string()))
     }
 
     /// Values at the points, in f32.
@@ -36,17 +26,14 @@ impl Loaded {
         let columns: Vec<Vec<f32>> =
             points.columns.iter().map(|c| c.iter().map(|&v| v as f32).collect()).collect();
         let columns: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
-        let constants: Vec<f32> = self.constants.iter().map(|&v| v as f32).collect();
-        let values = self.form.eval_f32(&constants, &columns);
-        let values = values.map_err(|error| ExhibitError(error.to_string()))?;
-        Ok(values.into_iter().flatten().map(f64::from).collect())
+        let values = self.0.single(&columns).map_err(|error| ExhibitError(error.to_string()))?;
+        Ok(values.into_iter().map(f64::from).collect())
     }
 
     /// Values at the points, in f64.
     pub(super) fn double(&self, points: &Points) -> Result<Vec<f64>, ExhibitError> {
         let columns: Vec<&[f64]> = points.columns.iter().map(Vec::as_slice).collect();
-        let values = self.form.eval_f64(&self.constants, &columns);
-        Ok(values.map_err(|error| ExhibitError(error.to_string()))?.into_iter().flatten().collect())
+        self.0.double(&columns).map_err(|error| ExhibitError(error.to_string()))
     }
 }
 
@@ -82,7 +69,5 @@ impl Points {
 
 /// Relative error in the L2 norm.
 pub(super) fn relative_l2(values: &[f64], exact: &[f64]) -> f64 {
-    let errors: f64 = values.iter().zip(exact).map(|(v, e)| (v - e) * (v - e)).sum();
-    let norm: f64 = exact.iter().map(|e| e * e).sum();
-    (errors / norm).sqrt()
+    statistics::relative_l2(values.iter().copied().zip(exact.iter().copied()))
 }

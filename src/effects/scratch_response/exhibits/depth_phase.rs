@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
-use super::{axis, columns, grid, log_grid, relative_rms, series, text};
+use super::{axis, columns, grid, log_grid, series, text};
 use crate::effects::exhibit::{
     Exhibit, ExhibitCell, ExhibitPlot, ExhibitSeries, ExhibitTable, Stroke,
 };
 use crate::effects::scratch_response::amplitude::{depth_factor, sinc_pi};
+use crate::numeric::statistics::relative_l2;
 
 /// Where γ + γᵢ is taken.
 #[derive(Debug, Clone, Copy)]
@@ -61,12 +62,12 @@ impl Sampling {
     /// Relative RMS error over every exitance to 85°.
     pub(in super::super) fn error(self, phase: DepthPhase) -> f64 {
         let exitances = grid(-85.0, 85.0, 121).map(f64::to_radians);
-        relative_rms(exitances.flat_map(|angle| self.lobes(angle, phase)))
+        relative_l2(exitances.flat_map(|angle| self.lobes(angle, phase)))
     }
 
     /// Relative RMS error at one exitance.
     fn error_at(self, exitance: f64, phase: DepthPhase) -> f64 {
-        relative_rms(self.lobes(exitance, phase))
+        relative_l2(self.lobes(exitance, phase))
     }
 }
 

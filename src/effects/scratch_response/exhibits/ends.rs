@@ -2,13 +2,14 @@
 
 use std::f64::consts::PI;
 
-use super::{axis, columns, grid, log_grid, relative_rms, series, text};
+use super::{axis, columns, grid, log_grid, series, text};
 use crate::effects::exhibit::{
     Exhibit, ExhibitCell, ExhibitError, ExhibitPlot, ExhibitTable, Stroke,
 };
 use crate::effects::scratch_response::amplitude::along_factor;
 use crate::effects::scratch_response::forms::FORMS;
 use crate::form::{Form, FormError};
+use crate::numeric::statistics::relative_l2;
 
 /// Wavelength and σ of the study, µm; the results depend on σkξ₁ and on ends over σ alone.
 const WAVELENGTH_UM: f64 = 0.55;
@@ -22,7 +23,7 @@ pub(in super::super) fn response_errors(begin: f64, end: f64) -> Result<[f64; 2]
     let exact = q.iter().map(|&q| along_factor(q, begin, end).norm_sqr());
     let infinite = q.iter().map(|&q| (-q * q).exp());
     let matched = matched_ends(&q, begin, end)?;
-    Ok([relative_rms(infinite.zip(exact.clone())), relative_rms(matched.into_iter().zip(exact))])
+    Ok([relative_l2(infinite.zip(exact.clone())), relative_l2(matched.into_iter().zip(exact))])
 }
 
 /// Energy over ξ₁ of a finite scratch over that of the infinite one, by Parseval:

@@ -28,16 +28,6 @@ pub(super) fn exhibits(_: &FittedConstants) -> Result<Vec<Exhibit>, ExhibitError
     ])
 }
 
-/// √(Σ(got − expected)² / Σ expected²).
-pub(super) fn relative_rms(pairs: impl IntoIterator<Item = (f64, f64)>) -> f64 {
-    let (mut error, mut norm) = (0.0, 0.0);
-    for (got, expected) in pairs {
-        error += (got - expected) * (got - expected);
-        norm += expected * expected;
-    }
-    (error / norm).sqrt()
-}
-
 fn axis(label: &'static str, unit: &'static str, log: bool) -> ExhibitAxis {
     ExhibitAxis { label, unit, log }
 }
