@@ -4,9 +4,12 @@
 //! [`spectra`] load what `data/measured/` holds.
 
 mod dispersion;
+pub mod environment;
 mod error;
+pub mod height_map;
 mod interpolation;
 pub mod optical_constants;
+pub mod pattern;
 pub mod refractive_index;
 pub mod spectra;
 mod tabulation;
