@@ -1,5 +1,18 @@
 //! Environment maps: radiance from every direction, in latitude–longitude format.
 
+use std::f64::consts::PI;
+use std::path::Path;
+
+use super::samples::{Samples, require_count};
+use super::{MeasuredError, environment_file, environment_resized};
+use crate::table::{MAX_PIXEL_BYTES, TableError};
+
+/// Fewest rows of a map.
+pub const LEAST_HEIGHT: usize = 4;
+
+/// Luminance of linear R, G, B with the primaries of Rec. 709 (ITU-R BT.709-6, item 3.2).
+const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
 /// Radiance from every direction of the sphere.
 ///
 /// Rows run from the zenith (+z) to the nadir, columns with increasing azimuth from +x through +y.
@@ -16,4 +29,213 @@ pub struct Environment {
     pub radiance: Vec<[f32; 3]>,
     /// One line on the origin: file and SHA-256.
     pub origin: String,
+}
+
+impl Environment {
+    /// A map of given radiance, row by row from the zenith; `origin` says where it is from.
+    ///
+    /// # Errors
+    /// As [`Environment::check`].
+    pub fn new(
+        width: usize,
+        height: usize,
+        radiance: Vec<[f32; 3]>,
+        origin: impl Into<String>,
+    ) -> Result<Self, MeasuredError> {
+        let map = Self { width, height, radiance, origin: origin.into() };
+        map.check()?;
+        Ok(map)
+    }
+
+    /// Reads a map: Radiance (`.hdr`, RGBE; exposure and colour correction divided out) or EXR
+    /// (`.exr`, channels `R`, `G`, `B`, others not looked at).
+    ///
+    /// Columns are taken in the order of the file. A panorama, in which azimuth falls to the right
+    /// as it does for a viewer inside, so becomes its mirror image.
+    ///
+    /// # Errors
+    /// [`MeasuredError`] naming the file: not there, another format, malformed or truncated,
+    /// missing channels (listing those there), and as [`Environment::check`].
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, MeasuredError> {
+        environment_file::read(path.as_ref())
+    }
+
+    /// Writes the map as EXR with channels `R`, `G`, `B`, whole or not at all; the same map always
+    /// gives the same bytes. Values are halves, within 2⁻¹¹ of the map's (2⁻²⁵ below 2⁻¹⁴), or f32
+    /// where one exceeds the largest half, 65504, or where halves would leave it all black.
+    ///
+    /// # Errors
+    /// As [`Environment::check`]; [`MeasuredError::Table`] if the file cannot be written.
+    pub fn write_exr(&self, path: impl AsRef<Path>) -> Result<(), MeasuredError> {
+        environment_file::write(self, path.as_ref())
+    }
+
+    /// The map with `width` texels around and `width`/2 rows: each texel is the mean of the texels
+    /// that it overlaps, weighted with the solid angles of the overlaps, also where it is smaller
+    /// than they are. Keeps [`Environment::mean`] to the rounding of f32.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Size`] if `width` is odd or below 2 · [`LEAST_HEIGHT`], and as
+    /// [`Environment::check`].
+    pub fn resized(&self, width: usize) -> Result<Self, MeasuredError> {
+        environment_resized::resized(self, width)
+    }
+
+    /// Direction at continuous texel coordinates: `x` in [0, width], `y` in [0, height], ½ past the
+    /// index at a texel's centre. A unit vector.
+    pub fn direction(&self, x: f64, y: f64) -> [f64; 3] {
+        let (phi, theta) = (2.0 * PI * x / self.width as f64, PI * y / self.height as f64);
+        [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
+    }
+
+    /// Continuous texel coordinates (x, y) of a direction of any length but 0: the inverse of
+    /// [`Environment::direction`], x in [0, width).
+    pub fn coordinates(&self, direction: [f64; 3]) -> (f64, f64) {
+        let [x, y, z] = direction;
+        let turn = (y.atan2(x) / (2.0 * PI)).rem_euclid(1.0);
+        // rem_euclid of a small negative number rounds up to 1.
+        let turn = if turn < 1.0 { turn } else { turn - 1.0 };
+        (turn * self.width as f64, x.hypot(y).atan2(z) / PI * self.height as f64)
+    }
+
+    /// Linear R, G, B from a direction of any length but 0: bilinear between the four nearest
+    /// texel centres, around in azimuth and on over the poles.
+    pub fn radiance(&self, direction: [f64; 3]) -> [f64; 3] {
+        let (x, y) = self.coordinates(direction);
+        let (x, y) = (x - 0.5, y - 0.5);
+        let (left, top) = (x.floor(), y.floor());
+        let (u, v) = (x - left, y - top);
+        let (left, top) = (left as i64, top as i64);
+        let mut sum = [0.0; 3];
+        for (column, row, weight) in [
+            (left, top, (1.0 - u) * (1.0 - v)),
+            (left + 1, top, u * (1.0 - v)),
+            (left, top + 1, (1.0 - u) * v),
+            (left + 1, top + 1, u * v),
+        ] {
+            for (sum, value) in sum.iter_mut().zip(self.texel(column, row)) {
+                *sum += weight * f64::from(value);
+            }
+        }
+        sum
+    }
+
+    /// The texel at any column and row: column i is column i ± width, and row −1 at column i is
+    /// row 0 at the column opposite. Black for a map without texels.
+    fn texel(&self, column: i64, row: i64) -> [f32; 3] {
+        let (width, height) = (self.width as i64, self.height as i64);
+        let over_a_pole = row < 0 || row >= height;
+        let row = match row {
+            row if row < 0 => -1 - row,
+            row if row >= height => 2 * height - 1 - row,
+            row => row,
+        };
+        let column = if over_a_pole { column + width / 2 } else { column };
+        let index = row * width + column.checked_rem_euclid(width).unwrap_or(0);
+        usize::try_from(index).ok().and_then(|i| self.radiance.get(i)).copied().unwrap_or_default()
+    }
+
+    /// Solid angle of a texel of `row` (below `height`), sr: 2π/width (cos θ_top − cos θ_bottom).
+    pub fn solid_angle(&self, row: usize) -> f64 {
+        // The difference of cosines as a product, which loses nothing near the poles.
+        let half = 0.5 * PI / self.height as f64;
+        let centre = half * (2.0 * row as f64 + 1.0);
+        4.0 * PI / self.width as f64 * centre.sin() * half.sin()
+    }
+
+    /// Mean linear R, G, B over the sphere.
+    pub fn mean(&self) -> [f64; 3] {
+        let mut mean = [0.0; 3];
+        for (row, texels) in self.radiance.chunks(self.width.max(1)).enumerate() {
+            let weight = self.solid_angle(row) / (4.0 * PI);
+            for (channel, mean) in mean.iter_mut().enumerate() {
+                let sum: f64 =
+                    texels.iter().filter_map(|t| t.get(channel)).map(|v| f64::from(*v)).sum();
+                *mean += weight * sum;
+            }
+        }
+        mean
+    }
+
+    /// Largest luminance of a texel over the mean luminance, 1, with the weights of Rec. 709; 1 for
+    /// a uniform map. The smaller the texels, the larger it is where lamps are small.
+    pub fn contrast(&self) -> f64 {
+        let texels = self.radiance.iter().map(|texel| luminance(texel.map(f64::from)));
+        texels.fold(0.0, f64::max) / luminance(self.mean())
+    }
+
+    /// The map turned by the rotation R whose rows are `rows`: what came from direction v comes
+    /// from R v, and the new radiance from d is the old one from Rᵀ d, bilinear between texels. So
+    /// the mean is kept to within interpolation only. `rows` must be orthonormal.
+    pub fn rotated(&self, rows: [[f64; 3]; 3]) -> Self {
+        let [a, b, c] = rows;
+        let texel = |column: usize, row: usize| {
+            let [x, y, z] = self.direction(column as f64 + 0.5, row as f64 + 0.5);
+            let back: [f64; 3] = std::array::from_fn(|i| a[i] * x + b[i] * y + c[i] * z);
+            self.radiance(back).map(|value| value as f32)
+        };
+        let radiance = (0..self.height)
+            .flat_map(|row| (0..self.width).map(move |column| (column, row)))
+            .map(|(column, row)| texel(column, row))
+            .collect();
+        Self { radiance, origin: format!("{}, rotated", self.origin), ..*self }
+    }
+
+    /// Checks what reading guarantees, for a map made in memory: twice as wide as high, at least
+    /// [`LEAST_HEIGHT`] rows, at most [`MAX_PIXEL_BYTES`], one radiance per texel, every value
+    /// finite and not negative, not all black.
+    ///
+    /// # Errors
+    /// The first rule that is broken, with the number of texels that break it and the first.
+    pub fn check(&self) -> Result<(), MeasuredError> {
+        let (origin, width, height) = (self.origin.as_str(), self.width, self.height);
+        require_size(origin, width, height)?;
+        require_count(origin, width, height, self.radiance.len())?;
+        let samples = Samples { origin, width, values: &self.radiance };
+        let found = |texel: &[f32; 3], wrong: fn(f32) -> bool| {
+            texel.iter().copied().find(|value| wrong(*value)).map(f64::from)
+        };
+        samples.refuse("texels are not finite", "finite radiance", |texel| {
+            found(texel, |value| !value.is_finite())
+        })?;
+        samples.refuse("texels are negative", "radiance of at least 0", |texel| {
+            found(texel, |value| value < 0.0)
+        })?;
+        if self.radiance.iter().flatten().all(|value| *value == 0.0) {
+            let total = self.radiance.len();
+            return Err(MeasuredError::Implausible {
+                origin: origin.into(),
+                reason: format!("all {total} texels are black, expected light from somewhere"),
+            });
+        }
+        Ok(())
+    }
+}
+
+fn luminance(rgb: [f64; 3]) -> f64 {
+    rgb.iter().zip(LUMINANCE).map(|(value, weight)| value * weight).sum()
+}
+
+/// Checks the size alone, before there is memory for it.
+pub(super) fn require_size(origin: &str, width: usize, height: usize) -> Result<(), MeasuredError> {
+    let fault = |expected: &'static str| MeasuredError::Size {
+        origin: origin.into(),
+        what: "texels",
+        width,
+        height,
+        expected,
+    };
+    if height.checked_mul(2) != Some(width) {
+        return Err(fault("twice as wide as high (latitude–longitude)"));
+    }
+    if height < LEAST_HEIGHT {
+        return Err(fault("at least 8 × 4"));
+    }
+    let declared = (width as u128 * height as u128).saturating_mul(size_of::<[f32; 3]>() as u128);
+    let limit = u128::from(MAX_PIXEL_BYTES);
+    if declared > limit {
+        let why = "the largest map that is read";
+        return Err(TableError::TooLarge { origin: origin.into(), declared, limit, why }.into());
+    }
+    Ok(())
 }

@@ -65,4 +65,89 @@ pub enum MeasuredError {
         /// What is wrong, with expected and got.
         reason: String,
     },
+    /// A map or a picture of a size that it cannot have.
+    #[error("{origin}: {width} × {height} {what}, expected {expected}")]
+    Size {
+        /// The file or what made it.
+        origin: String,
+        /// What it is made of, in the plural.
+        what: &'static str,
+        /// Number across.
+        width: usize,
+        /// Number down.
+        height: usize,
+        /// The rule that is broken.
+        expected: &'static str,
+    },
+    /// More or fewer bytes or values than the size asks for.
+    #[error("{origin}: {got} {what}, expected {expected} for {width} × {height}{hint}")]
+    Length {
+        /// The file or what made it.
+        origin: String,
+        /// What is counted, in the plural.
+        what: &'static str,
+        /// Number that is there.
+        got: u128,
+        /// Number that is needed.
+        expected: u128,
+        /// Number across.
+        width: usize,
+        /// Number down.
+        height: usize,
+        /// Where the size stands, if not in the same file.
+        hint: String,
+    },
+    /// Samples that cannot be what they are said to be.
+    #[error(
+        "{origin}: {count} of {total} {what}, expected {expected}; the first, at column {column}, \
+         row {row} (from 0), is {got}"
+    )]
+    Samples {
+        /// The file or what made it.
+        origin: String,
+        /// Number of samples that are wrong.
+        count: usize,
+        /// Number of samples.
+        total: usize,
+        /// What is wrong with them.
+        what: &'static str,
+        /// What is expected, with the unit.
+        expected: &'static str,
+        /// Column of the first, from 0.
+        column: usize,
+        /// Row of the first, from 0.
+        row: usize,
+        /// The first value.
+        got: f64,
+    },
+    /// A channel that is not there, or one that must be named.
+    #[error("{origin}: {reason}; it has: {known}")]
+    Channel {
+        /// The file.
+        origin: String,
+        /// What is missing or unclear.
+        reason: String,
+        /// The channels that are there.
+        known: String,
+    },
+    /// A file that its decoder refuses.
+    #[error("{origin}: malformed {format}: {reason}")]
+    Decoder {
+        /// The file.
+        origin: String,
+        /// Name of the format.
+        format: &'static str,
+        /// What the decoder said, with expected and got.
+        reason: String,
+    },
+    /// A file to be written whose extension is not that of what it would hold.
+    #[error("{}: {what} is written as {expected}", path.display())]
+    OutputFormat {
+        /// The file to be written.
+        path: PathBuf,
+        /// What was to be written.
+        what: &'static str,
+        /// The extension that is expected.
+        expected: &'static str,
+    },
 }

@@ -1,5 +1,17 @@
 //! Height maps of surfaces, as profilers and atomic force microscopes measure them.
 
+use std::path::Path;
+
+use super::samples::{Samples, require_count};
+use super::{MeasuredError, height_map_raw};
+use crate::table::{Axis, Channel, Grid, units};
+
+/// Name of the channel of heights in a grid.
+const HEIGHT: &str = "height";
+
+/// Name of the channel that is 1 where a grid has data and 0 where it has none.
+const VALID: &str = "valid";
+
 /// Heights of a surface over a regular grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightMap {
@@ -15,4 +27,178 @@ pub struct HeightMap {
     pub height_nm: Vec<f64>,
     /// One line on the origin: file and SHA-256, or what made it.
     pub origin: String,
+}
+
+impl HeightMap {
+    /// Reads a height map, of the format that the name ends in.
+    ///
+    /// - `.f32`: little-endian f32, row-major `[y][x]`, nm, NaN where there is no data. Beside it,
+    ///   `<stem>.json` holds `nx`, `ny`, `dx_um` and `dy_um`. Where it also has a `dtype` or a
+    ///   `height_unit`, they must say the same; other keys are not looked at.
+    /// - `.exr`: a [`Grid`] with its sidecar of axes, see [`HeightMap::from_grid`].
+    ///
+    /// # Errors
+    /// [`MeasuredError`] naming the file: not there, another format, a sidecar that is missing,
+    /// malformed or of another size than the file, heights in another unit, and as
+    /// [`HeightMap::check`]. Raw heights that differ by less than a picometre in all are refused
+    /// too: they are in µm or m.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, MeasuredError> {
+        let path = path.as_ref();
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
+        match extension.as_str() {
+            "f32" => height_map_raw::read(path),
+            "exr" => Self::from_grid(&Grid::read_exr(path)?),
+            _ => Err(MeasuredError::UnknownFormat {
+                path: path.into(),
+                known: "raw height map (.f32 with .json); grid (.exr with .exr.axes.toml)".into(),
+            }),
+        }
+    }
+
+    /// The height map in a grid: channel `height` with a unit of length, axes that increase with
+    /// units of length, and optionally `valid` \[1\], 0 where there is no data and else 1.
+    ///
+    /// # Errors
+    /// [`MeasuredError`] naming the grid's origin: no such channel, another unit, an axis that
+    /// falls, and as [`HeightMap::check`].
+    pub fn from_grid(grid: &Grid) -> Result<Self, MeasuredError> {
+        let origin = grid.origin.clone();
+        let channel = grid.require(HEIGHT)?;
+        let to_nm = units::conversion(&channel.unit, "nm", &origin, HEIGHT)?;
+        let spacing = |axis: &Axis| {
+            let to_um = units::conversion(&axis.unit, "um", &origin, &axis.name)?;
+            Ok::<f64, MeasuredError>(to_um * (axis.to - axis.from) / axis.count as f64)
+        };
+        let (dx_um, dy_um) = (spacing(&grid.x)?, spacing(&grid.y)?);
+        let mut height_nm: Vec<f64> =
+            channel.values.iter().map(|value| f64::from(*value) * to_nm).collect();
+        if let Some(valid) = grid.channel(VALID) {
+            units::conversion(&valid.unit, "1", &origin, VALID)?;
+            let samples = Samples { origin: &origin, width: grid.x.count, values: &valid.values };
+            samples.refuse("values of `valid` are neither 0 nor 1", "0 or 1", |value| {
+                (*value != 0.0 && *value != 1.0).then_some(f64::from(*value))
+            })?;
+            for (height, valid) in height_nm.iter_mut().zip(&valid.values) {
+                if *valid == 0.0 {
+                    *height = f64::NAN;
+                }
+            }
+        }
+        let (nx, ny) = (grid.x.count, grid.y.count);
+        let map = Self { nx, ny, dx_um, dy_um, height_nm, origin };
+        map.check()?;
+        Ok(map)
+    }
+
+    /// The height map as a grid: axes `x` and `y` in µm from 0, `height` in nm rounded to f32, and
+    /// `valid` if any sample has no data, which is then written as height 0.
+    ///
+    /// # Errors
+    /// As [`HeightMap::check`]; a height beyond the range of f32.
+    pub fn to_grid(&self) -> Result<Grid, MeasuredError> {
+        self.check()?;
+        let axis = |name: &str, count: usize, spacing: f64| Axis {
+            name: name.into(),
+            unit: "um".into(),
+            from: 0.0,
+            to: count as f64 * spacing,
+            count,
+        };
+        let height = |nm: &f64| if nm.is_nan() { 0.0 } else { *nm as f32 };
+        let channel = |name: &str, unit: &str, values: Vec<f32>| Channel {
+            name: name.into(),
+            unit: unit.into(),
+            values,
+        };
+        let mut channels = vec![channel(HEIGHT, "nm", self.height_nm.iter().map(height).collect())];
+        if self.height_nm.iter().any(|nm| nm.is_nan()) {
+            let valid = |nm: &f64| if nm.is_nan() { 0.0 } else { 1.0 };
+            channels.push(channel(VALID, "1", self.height_nm.iter().map(valid).collect()));
+        }
+        let grid = Grid {
+            x: axis("x", self.nx, self.dx_um),
+            y: axis("y", self.ny, self.dy_um),
+            channels,
+            origin: self.origin.clone(),
+        };
+        grid.check()?;
+        Ok(grid)
+    }
+
+    /// Height in nm at sample (`ix`, `iy`); `None` outside the map and where there is no data.
+    pub fn at(&self, ix: usize, iy: usize) -> Option<f64> {
+        if ix >= self.nx {
+            return None;
+        }
+        let index = iy.checked_mul(self.nx)?.checked_add(ix)?;
+        self.height_nm.get(index).copied().filter(|nm| !nm.is_nan())
+    }
+
+    /// Share of the samples that have data, 1, in [0, 1]; 0 for a map without samples.
+    pub fn valid_fraction(&self) -> f64 {
+        let valid = self.height_nm.iter().filter(|nm| !nm.is_nan()).count();
+        valid as f64 / self.height_nm.len().max(1) as f64
+    }
+
+    /// Lateral size along x and y, µm: number of samples times their distance.
+    pub fn size_um(&self) -> [f64; 2] {
+        [self.nx as f64 * self.dx_um, self.ny as f64 * self.dy_um]
+    }
+
+    /// Lowest and highest height, nm; `None` where no sample has data.
+    pub fn range_nm(&self) -> Option<[f64; 2]> {
+        let known = self.height_nm.iter().copied().filter(|nm| !nm.is_nan());
+        known.fold(None, |range, nm| match range {
+            None => Some([nm, nm]),
+            Some([low, high]) => Some([nm.min(low), nm.max(high)]),
+        })
+    }
+
+    /// Checks what reading guarantees, for a map made in memory: at least two samples along either
+    /// axis, positive finite distances, one height per sample, none infinite, not all missing, and
+    /// a range of heights that is no larger than the lateral size.
+    ///
+    /// # Errors
+    /// The first rule that is broken.
+    pub fn check(&self) -> Result<(), MeasuredError> {
+        let (origin, width, height) = (self.origin.as_str(), self.nx, self.ny);
+        let implausible =
+            |reason: String| MeasuredError::Implausible { origin: origin.into(), reason };
+        if width < 2 || height < 2 {
+            let expected = "at least 2 along x and along y";
+            let what = "samples";
+            return Err(MeasuredError::Size {
+                origin: origin.into(),
+                what,
+                width,
+                height,
+                expected,
+            });
+        }
+        for (name, spacing) in [("dx_um", self.dx_um), ("dy_um", self.dy_um)] {
+            if !(spacing.is_finite() && spacing > 0.0) {
+                return Err(implausible(format!(
+                    "{name} is {spacing} µm, expected a positive finite distance"
+                )));
+            }
+        }
+        require_count(origin, width, height, self.height_nm.len())?;
+        let samples = Samples { origin, width, values: &self.height_nm };
+        samples.refuse("heights are infinite", "nm, or NaN where there is no data", |nm| {
+            nm.is_infinite().then_some(*nm)
+        })?;
+        let Some([low, high]) = self.range_nm() else {
+            let total = self.height_nm.len();
+            return Err(implausible(format!("none of {total} samples has data: all are NaN")));
+        };
+        let [x, y] = self.size_um();
+        let range = high - low;
+        if range > 1e3 * x.max(y) {
+            return Err(implausible(format!(
+                "heights range over {range} nm, more than the lateral size of {x} × {y} µm; \
+                 expected heights in nm and distances in µm"
+            )));
+        }
+        Ok(())
+    }
 }

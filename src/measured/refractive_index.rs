@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde_saphyr::Spanned;
 
 use super::tabulation::{self, Tabulation};
-use super::{Dispersion, Formula, Imported, MeasuredError};
+use super::{Content, Dispersion, Formula, Imported, MeasuredError};
 use crate::table::{Column, Table, store};
 
 /// Spacing of the wavelengths of a record that is a formula, nm; see [`RefractiveIndex::to_table`].
@@ -371,5 +371,5 @@ fn regular_wavelengths(from: f64, to: f64) -> (Vec<f64>, String) {
 pub(super) fn import(path: &Path) -> Result<Imported, MeasuredError> {
     let record = RefractiveIndex::read(path)?;
     let (table, notes) = (record.to_table()?, record.notes()?);
-    Ok(Imported { table, format: "refractiveindex.info YAML", notes })
+    Ok(Imported { content: Content::Table(table), format: "refractiveindex.info YAML", notes })
 }

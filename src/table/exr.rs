@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use ::exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
 use ::exr::meta::attribute::{LevelMode, SampleType, Text};
 use ::exr::meta::{BlockDescription, MetaData, header::Header};
-use ::exr::prelude::{LayerAttributes, ReadChannels, ReadLayers, WritableImage, read};
+use ::exr::prelude::{LayerAttributes, ReadChannels, ReadLayers, WritableImage, f16, read};
 use serde::{Deserialize, Serialize};
 
 use super::{Axis, Channel, Grid, TableError, store, units};
@@ -153,12 +153,38 @@ pub(crate) fn encode(
     height: usize,
     channels: &[(&str, &[f32])],
 ) -> Result<Vec<u8>, TableError> {
+    let samples = |values: &[f32]| FlatSamples::F32(values.to_vec());
+    encode_samples(origin, width, height, channels, samples)
+}
+
+/// As [`encode`], with each value rounded to the nearest half: relative error up to 2⁻¹¹, absolute
+/// up to 2⁻²⁵ below 2⁻¹⁴, infinite from 65520 on.
+///
+/// # Errors
+/// As [`encode`].
+pub(crate) fn encode_half(
+    origin: &str,
+    width: usize,
+    height: usize,
+    channels: &[(&str, &[f32])],
+) -> Result<Vec<u8>, TableError> {
+    let half = |values: &[f32]| values.iter().map(|value| f16::from_f32(*value)).collect();
+    encode_samples(origin, width, height, channels, |values| FlatSamples::F16(half(values)))
+}
+
+fn encode_samples(
+    origin: &str,
+    width: usize,
+    height: usize,
+    channels: &[(&str, &[f32])],
+    samples: impl Fn(&[f32]) -> FlatSamples,
+) -> Result<Vec<u8>, TableError> {
     let fault = |reason: String| TableError::Malformed { origin: origin.into(), reason };
     let mut list = Vec::with_capacity(channels.len());
     for (name, values) in channels {
         let name = Text::new_or_none(name)
             .ok_or_else(|| fault(format!("EXR cannot name a channel {name:?}")))?;
-        list.push(AnyChannel::new(name, FlatSamples::F32(values.to_vec())));
+        list.push(AnyChannel::new(name, samples(values)));
     }
     let layer = Layer::new(
         (width, height),

@@ -18,7 +18,9 @@ pub use self::axis::Axis;
 pub use self::csv::{ReadOptions, shortest_number};
 pub use self::error::TableError;
 pub use self::exr::{MAX_PIXEL_BYTES, sidecar_path};
-pub(crate) use self::exr::{decode as decode_exr, encode as encode_exr};
+pub(crate) use self::exr::{
+    decode as decode_exr, encode as encode_exr, encode_half as encode_half_exr,
+};
 pub use self::grid::{Channel, Grid};
 
 /// A column of numbers.
