@@ -16,7 +16,11 @@ mod doctor;
 mod emit;
 mod eval;
 mod evaluable;
+mod environment;
 mod exit;
+mod factor;
+mod factor_pictures;
+mod factor_table;
 mod fit;
 mod fit_table;
 mod import;
@@ -82,6 +86,7 @@ enum Verb {
     All(all::Arguments),
     List(list::Arguments),
     Fit(fit::Arguments),
+    Factor(factor::Arguments),
     Eval(eval::Arguments),
     Render(render::Arguments),
     Bench(bench::Arguments),
@@ -110,6 +115,7 @@ fn run(line: CommandLine) -> anyhow::Result<Ending> {
         Verb::All(arguments) => all::run(&arguments, &context),
         Verb::List(arguments) => list::run(&arguments, &context),
         Verb::Fit(arguments) => fit::run(&arguments, &context),
+        Verb::Factor(arguments) => factor::run(&arguments, &context),
         Verb::Eval(arguments) => eval::run(&arguments, &context),
         Verb::Render(arguments) => render::run(&arguments, &context),
         Verb::Bench(arguments) => bench::run(&arguments, &context),

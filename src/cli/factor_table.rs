@@ -1,0 +1,194 @@
+//! What `factor` prints and writes about errors.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::output::{significant, table};
+use crate::fit::low_rank::{MainDirections, Spectrum};
+use crate::table::{Grid, shortest_number};
+
+/// One method at one rank in one channel.
+#[derive(Debug, Clone)]
+pub(super) struct Row {
+    pub(super) method: &'static str,
+    pub(super) rank: usize,
+    pub(super) channel: String,
+    /// ‖S − Ŝ‖/‖S‖.
+    pub(super) relative_error: f64,
+    /// The same after convolution, where there are environments.
+    pub(super) after_convolution: Option<f64>,
+    /// Of all channels together.
+    pub(super) ms: f64,
+}
+
+/// Kernels along lines, in short.
+pub(super) struct Lines {
+    pub(super) directions: Vec<[f64; 2]>,
+    pub(super) half_width: f64,
+    pub(super) lost: Vec<(String, f64)>,
+}
+
+/// Everything there is to say.
+pub(super) struct Factored<'a> {
+    pub(super) table: &'a Grid,
+    pub(super) spectra: Vec<&'a Spectrum>,
+    pub(super) directions: Option<&'a MainDirections>,
+    pub(super) aligned: bool,
+    pub(super) rows: &'a [Row],
+    pub(super) lines: Option<Lines>,
+    pub(super) folder: &'a Path,
+}
+
+impl Factored<'_> {
+    /// `errors.csv`.
+    pub(super) fn csv(&self) -> anyhow::Result<String> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record([
+            "method",
+            "rank",
+            "channel",
+            "relative_error",
+            "error_after_convolution",
+            "ms",
+        ])?;
+        for row in self.rows {
+            writer.write_record([
+                row.method,
+                &row.rank.to_string(),
+                &row.channel,
+                &shortest_number(row.relative_error),
+                &row.after_convolution.map_or(String::new(), shortest_number),
+                &significant(row.ms, 4),
+            ])?;
+        }
+        Ok(String::from_utf8(writer.into_inner()?)?)
+    }
+
+    /// For a reader.
+    pub(super) fn text(&self) -> String {
+        let (nx, ny) = (self.table.x.count, self.table.y.count);
+        let mut text = format!("{nx} × {ny} texels, {}\n", self.folder.display());
+        if let Some(found) = self.directions {
+            let [x, y] = found.angles_rad.map(|angle| significant(angle.to_degrees(), 5));
+            let [before, _, after] = found.beyond_rank_one.map(|part| significant(100.0 * part, 3));
+            let done = if self.aligned { "straightened" } else { "not straightened" };
+            text.push_str(&format!(
+                "main directions at {x}° and {y}°, {done}; beyond rank 1 (of the roots): \
+                 {before} % before, {after} % after\n"
+            ));
+        }
+        text.push_str(&table(&self.header(), self.cells()));
+        if let Some(lines) = &self.lines {
+            text.push_str(&lines.text());
+        }
+        text
+    }
+
+    fn channels(&self) -> Vec<&str> {
+        self.table.channels.iter().map(|c| c.name.as_str()).collect()
+    }
+
+    fn is_seen(&self) -> bool {
+        self.rows.iter().any(|row| row.after_convolution.is_some())
+    }
+
+    fn header(&self) -> Vec<String> {
+        let mut header = vec!["method".to_owned(), "rank".to_owned()];
+        header.extend(self.channels().iter().map(|c| format!("error {c}")));
+        if self.is_seen() {
+            header.extend(self.channels().iter().map(|c| format!("convolved {c}")));
+        }
+        header.push("ms".to_owned());
+        header
+    }
+
+    fn cells(&self) -> Vec<Vec<String>> {
+        let seen = self.is_seen();
+        self.rows
+            .chunks(self.table.channels.len().max(1))
+            .filter_map(|rows| {
+                let first = rows.first()?;
+                let mut cells = vec![first.method.to_owned(), first.rank.to_string()];
+                cells.extend(rows.iter().map(|row| significant(row.relative_error, 4)));
+                if seen {
+                    let value = |row: &Row| row.after_convolution.map(|e| significant(e, 4));
+                    cells.extend(rows.iter().map(|row| value(row).unwrap_or_default()));
+                }
+                cells.push(significant(first.ms, 3));
+                Some(cells)
+            })
+            .collect()
+    }
+
+    /// For a program.
+    pub(super) fn json(&self) -> Value {
+        let rows: Vec<Value> = self
+            .rows
+            .iter()
+            .map(|row| {
+                json!({
+                    "method": row.method,
+                    "rank": row.rank,
+                    "channel": row.channel,
+                    "relative_error": row.relative_error,
+                    "error_after_convolution": row.after_convolution,
+                    "ms": row.ms,
+                })
+            })
+            .collect();
+        let spectra: Vec<Value> = self
+            .spectra
+            .iter()
+            .map(|s| {
+                json!({
+                    "channel": s.channel,
+                    "singular_values": s.singular_values,
+                    "relative_errors": s.relative_errors,
+                })
+            })
+            .collect();
+        let alignment = self.directions.map(|found| {
+            json!({
+                "angles_deg": found.angles_rad.map(f64::to_degrees),
+                "searched_deg": found.searched_rad.map(f64::to_degrees),
+                "beyond_rank_one": found.beyond_rank_one,
+                "matrix": found.alignment.matrix,
+                "applied": self.aligned,
+            })
+        });
+        let lines = self.lines.as_ref().map(|lines| {
+            let lost: serde_json::Map<String, Value> =
+                lines.lost.iter().map(|(name, part)| (name.clone(), json!(part))).collect();
+            json!({
+                "directions": lines.directions,
+                "half_width": lines.half_width.is_finite().then_some(lines.half_width),
+                "lost": lost,
+            })
+        });
+        json!({
+            "table": self.table.origin,
+            "output": self.folder.display().to_string(),
+            "rows": rows,
+            "spectra": spectra,
+            "alignment": alignment,
+            "directional": lines,
+        })
+    }
+}
+
+impl Lines {
+    fn text(&self) -> String {
+        let angles: Vec<String> = self
+            .directions
+            .iter()
+            .map(|[x, y]| format!("{}°", significant(y.atan2(*x).to_degrees(), 5)))
+            .collect();
+        let lost: Vec<String> = self
+            .lost
+            .iter()
+            .map(|(name, part)| format!("{name} {} %", significant(100.0 * part, 3)))
+            .collect();
+        format!("lines at {}; energy on no line: {}\n", angles.join(" and "), lost.join(", "))
+    }
+}

@@ -1,0 +1,171 @@
+//! Kernels along lines: the table integrated across each (toisoul2017 table 2, "1D" and "Sum").
+
+use super::{DirectionalKernel, LowRankError};
+use crate::table::{Axis, Channel, Grid};
+
+/// Kernels along lines and what they leave out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Directional {
+    /// One per direction, in order.
+    pub kernels: Vec<DirectionalKernel>,
+    /// Name of each channel and the part of its energy Σ S Δh_x Δh_y that lies on no line: in
+    /// [0, 1] for a table that is not negative; 0 for a channel without energy.
+    pub lost: Vec<(String, f64)>,
+}
+
+/// Integrates a table across lines through h = 0.
+///
+/// A texel belongs to every line whose distance from its centre is at most `half_width` (in h;
+/// infinite takes the whole table) and gives each an equal share, so that the overlap about the
+/// centre counts once. Along a line, its energy goes to the two nearest texels of the line's axis in
+/// proportion, which keeps both its sum and its centroid. The axis has the spacing of the finer of
+/// the table's two and reaches as far as the table does along the line, evenly about 0.
+///
+/// # Errors
+/// As [`Grid::check`]; [`LowRankError::Setting`] without directions, for one of length 0 or not
+/// finite, or for a half width that is not above 0.
+pub fn directional(
+    table: &Grid,
+    directions: &[[f64; 2]],
+    half_width: f64,
+) -> Result<Directional, LowRankError> {
+    table.check()?;
+    let setting = |name, expected: &str, got: String| LowRankError::Setting {
+        name,
+        expected: expected.into(),
+        got,
+    };
+    if half_width.is_nan() || half_width <= 0.0 {
+        return Err(setting("half width", "above 0", half_width.to_string()));
+    }
+    let mut units = Vec::with_capacity(directions.len());
+    for [x, y] in directions {
+        let length = x.hypot(*y);
+        if !(length.is_finite() && length > 0.0) {
+            return Err(setting("direction", "a finite vector that is not 0", format!("({x}, {y})")));
+        }
+        units.push([x / length, y / length]);
+    }
+    if units.is_empty() {
+        return Err(setting("directions", "at least one", "none".into()));
+    }
+    let axes: Vec<Axis> = units.iter().map(|d| axis_along(table, *d)).collect();
+    let area = spacing(&table.x) * spacing(&table.y);
+    let (xs, ys) = (table.x.centres(), table.y.centres());
+    let mut lost = Vec::with_capacity(table.channels.len());
+    let mut lines: Vec<Vec<(String, Vec<f64>)>> = vec![Vec::new(); units.len()];
+    for channel in &table.channels {
+        let mut profiles: Vec<Vec<f64>> = axes.iter().map(|axis| vec![0.0; axis.count]).collect();
+        let (mut whole, mut outside) = (0.0, 0.0);
+        let points = ys.iter().flat_map(|y| xs.iter().map(move |x| [*x, *y]));
+        for (h, value) in points.zip(&channel.values) {
+            let energy = f64::from(*value) * area;
+            whole += energy;
+            let on = |d: &[f64; 2]| (h[1] * d[0] - h[0] * d[1]).abs() <= half_width;
+            let sharing = units.iter().filter(|d| on(d)).count();
+            if sharing == 0 {
+                outside += energy;
+                continue;
+            }
+            for ((d, axis), profile) in units.iter().zip(&axes).zip(&mut profiles) {
+                if on(d) {
+                    let along = h[0] * d[0] + h[1] * d[1];
+                    deposit(axis, profile, along, energy / (sharing as f64 * spacing(axis)));
+                }
+            }
+        }
+        let part = if whole == 0.0 { 0.0 } else { outside / whole };
+        lost.push((channel.name.clone(), part));
+        for (line, profile) in lines.iter_mut().zip(profiles) {
+            line.push((channel.name.clone(), profile));
+        }
+    }
+    let kernels = units
+        .into_iter()
+        .zip(axes)
+        .zip(lines)
+        .map(|((direction, axis), channels)| DirectionalKernel { direction, axis, channels })
+        .collect();
+    Ok(Directional { kernels, lost })
+}
+
+fn spacing(axis: &Axis) -> f64 {
+    (axis.to - axis.from).abs() / axis.count as f64
+}
+
+/// As far as the table reaches along d, and a texel more, so that both texels of every deposit exist.
+fn axis_along(table: &Grid, d: [f64; 2]) -> Axis {
+    let furthest = |axis: &Axis| axis.from.abs().max(axis.to.abs());
+    let reach = furthest(&table.x) * d[0].abs() + furthest(&table.y) * d[1].abs();
+    let step = spacing(&table.x).min(spacing(&table.y));
+    let half = (reach / step).ceil() as usize + 1;
+    let edge = half as f64 * step;
+    Axis {
+        name: "s".into(),
+        unit: table.x.unit.clone(),
+        from: -edge,
+        to: edge,
+        count: 2 * half,
+    }
+}
+
+fn deposit(axis: &Axis, profile: &mut [f64], along: f64, amount: f64) {
+    let at = axis.texel(along).clamp(0.0, (axis.count - 1) as f64);
+    let (low, part) = (at.floor() as usize, at.fract());
+    for (index, share) in [(low, 1.0 - part), (low + 1, part)] {
+        if let Some(slot) = profile.get_mut(index) {
+            *slot += share * amount;
+        }
+    }
+}
+
+/// The lines drawn on a table with the given axes: each texel of a line's axis, cut into
+/// `PIECES`, goes to the four nearest texels in proportion, over their area. A line one texel wide
+/// stands for the δ across it; what falls beyond the axes is lost.
+///
+/// # Errors
+/// As [`Grid::check`].
+pub fn drawn(kernels: &[DirectionalKernel], x: &Axis, y: &Axis) -> Result<Grid, LowRankError> {
+    const PIECES: usize = 8;
+    let names: Vec<&String> =
+        kernels.first().map(|k| k.channels.iter().map(|(name, _)| name).collect()).unwrap_or_default();
+    let area = spacing(x) * spacing(y);
+    let mut channels = Vec::with_capacity(names.len());
+    for (index, name) in names.into_iter().enumerate() {
+        let mut values = vec![0.0f64; x.count * y.count];
+        for kernel in kernels {
+            let Some((_, profile)) = kernel.channels.get(index) else { continue };
+            let step = spacing(&kernel.axis);
+            for (i, value) in profile.iter().enumerate().filter(|(_, v)| **v != 0.0) {
+                for piece in 0..PIECES {
+                    let offset = (piece as f64 + 0.5) / PIECES as f64 - 0.5;
+                    let s = kernel.axis.centre(i) + offset * step;
+                    let [dx, dy] = kernel.direction;
+                    let share = value * step / (PIECES as f64 * area);
+                    spread(&mut values, x, y, [s * dx, s * dy], share);
+                }
+            }
+        }
+        let values = values.iter().map(|v| *v as f32).collect();
+        channels.push(Channel { name: name.clone(), unit: "1".into(), values });
+    }
+    let origin = format!("{} lines", kernels.len());
+    let grid = Grid { x: x.clone(), y: y.clone(), channels, origin };
+    grid.check()?;
+    Ok(grid)
+}
+
+fn spread(values: &mut [f64], x: &Axis, y: &Axis, h: [f64; 2], amount: f64) {
+    let (tx, ty) = (x.texel(h[0]), y.texel(h[1]));
+    let (left, top) = (tx.floor(), ty.floor());
+    for (i, wx) in [(left, 1.0 - (tx - left)), (left + 1.0, tx - left)] {
+        for (j, wy) in [(top, 1.0 - (ty - top)), (top + 1.0, ty - top)] {
+            if i < 0.0 || j < 0.0 || i as usize >= x.count {
+                continue;
+            }
+            if let Some(slot) = values.get_mut(j as usize * x.count + i as usize) {
+                *slot += amount * wx * wy;
+            }
+        }
+    }
+}

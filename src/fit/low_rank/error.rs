@@ -1,0 +1,76 @@
+//! Why a table could not be factorised.
+
+use crate::table::TableError;
+
+/// What went wrong; every message says what was expected and what was found.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LowRankError {
+    /// The table, or a file of factors, could not be read, used or written.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// A rank that the table does not have.
+    #[error("{origin}: rank {rank}; a table of {nx} × {ny} texels has ranks 1 to {largest}", largest = nx.min(ny))]
+    Rank {
+        /// The table.
+        origin: String,
+        /// The rank asked for.
+        rank: usize,
+        /// Texels along x.
+        nx: usize,
+        /// Texels along y.
+        ny: usize,
+    },
+    /// An option outside its range.
+    #[error("{name}: expected {expected}, got {got}")]
+    Setting {
+        /// The option.
+        name: &'static str,
+        /// What it may be.
+        expected: String,
+        /// What it is.
+        got: String,
+    },
+    /// A table without a value above or below zero.
+    #[error("{origin}: every value is 0; there is nothing to factorise")]
+    AllZero {
+        /// The table.
+        origin: String,
+    },
+    /// A negative value where factors may not be negative.
+    #[error("{origin}: channel {channel:?}, texel ({ix}, {iy}): {value} is negative, and factors that are not negative cannot give it")]
+    Negative {
+        /// The table.
+        origin: String,
+        /// The channel.
+        channel: String,
+        /// Texel along x.
+        ix: usize,
+        /// Texel along y.
+        iy: usize,
+        /// The value.
+        value: f32,
+    },
+    /// The singular values of a channel did not converge.
+    #[error("{what}: the singular values did not converge")]
+    NotConverged {
+        /// Table or matrix.
+        what: String,
+    },
+    /// An environment that cannot weigh an error.
+    #[error("environment {origin}: {what}")]
+    Environment {
+        /// The environment.
+        origin: String,
+        /// Expected and got.
+        what: String,
+    },
+    /// Files of factors that do not belong together, or a table of another size.
+    #[error("{origin}: {what}")]
+    Mismatch {
+        /// File, folder or table.
+        origin: String,
+        /// Expected and got.
+        what: String,
+    },
+}

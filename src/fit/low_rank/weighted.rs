@@ -1,0 +1,172 @@
+//! Factors of least weighted error: Σ_ij W_ij (S − Ŝ)²_ij.
+//!
+//! A weight that is no product of one along x and one along y leaves no decomposition in closed
+//! form (Srebro & Jaakkola 2003, ICML). With one side held, the other's rows are independent small
+//! least-squares problems; the two sides alternate.
+
+use faer::Mat;
+
+use super::matrix::{of_channel, solve_towards};
+use super::methods::{Stopping, per_channel};
+use super::terms::Terms;
+use super::{Alignment, LowRank, LowRankError};
+use crate::table::{Axis, Channel, Grid};
+
+/// Relative ridge that holds a row of a side where its weights leave it open.
+const ANCHOR: f64 = 1e-12;
+
+/// A weight per texel, rows of constant y one after the other; finite and not negative.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Weight {
+    nx: usize,
+    values: Vec<f64>,
+}
+
+impl Weight {
+    /// Any weight.
+    ///
+    /// # Errors
+    /// [`LowRankError::Mismatch`] unless there are `x.count · y.count` values;
+    /// [`LowRankError::Setting`] if one is negative or not finite.
+    pub fn new(x: &Axis, y: &Axis, values: Vec<f64>) -> Result<Self, LowRankError> {
+        let expected = x.count.saturating_mul(y.count);
+        if values.len() != expected {
+            return Err(LowRankError::Mismatch {
+                origin: "weight".into(),
+                what: format!("{} values, expected {expected}", values.len()),
+            });
+        }
+        match values.iter().find(|w| !(w.is_finite() && **w >= 0.0)) {
+            Some(bad) => Err(LowRankError::Setting {
+                name: "weight",
+                expected: "finite values that are not negative".into(),
+                got: bad.to_string(),
+            }),
+            None => Ok(Self { nx: x.count, values }),
+        }
+    }
+
+    /// The square of what a texel of a diffraction table is multiplied by under illumination from
+    /// ω_i seen along the normal: ((1 + ω_i·ω_o)²/4)² with ω_o = n and ω_i·n = √(1 − h_x² − h_y²),
+    /// 0 outside the unit disc, which no light reaches (toisoul2017 eq. 6).
+    pub fn of_incidence(x: &Axis, y: &Axis, alignment: &Alignment) -> Self {
+        let inverse = alignment.inverse();
+        let weight = |ax: f64, ay: f64| {
+            let [hx, hy] = inverse.map(|row| row[0] * ax + row[1] * ay);
+            let sine_squared = hx * hx + hy * hy;
+            if sine_squared > 1.0 {
+                return 0.0;
+            }
+            ((1.0 + (1.0 - sine_squared).sqrt()).powi(2) / 4.0).powi(2)
+        };
+        let xs = x.centres();
+        let rows = y.centres();
+        let values = rows.iter().flat_map(|ay| xs.iter().map(move |ax| weight(*ax, *ay))).collect();
+        Self { nx: x.count, values }
+    }
+
+    fn at(&self, iy: usize, ix: usize) -> f64 {
+        self.values.get(iy * self.nx + ix).copied().unwrap_or(0.0)
+    }
+
+    /// √W.
+    pub(super) fn root(&self, iy: usize, ix: usize) -> f64 {
+        self.at(iy, ix).sqrt()
+    }
+
+    fn squared(&self, s: &Mat<f64>, terms: Option<&Terms>) -> f64 {
+        let fit = |i: usize, j: usize| {
+            terms.map_or(0.0, |t| {
+                (0..t.rank()).map(|m| t.vertical[(i, m)] * t.horizontal[(j, m)]).sum()
+            })
+        };
+        (0..s.nrows())
+            .map(|i| (0..s.ncols()).map(|j| self.at(i, j) * (s[(i, j)] - fit(i, j)).powi(2)).sum::<f64>())
+            .sum()
+    }
+
+    /// √(Σ W (S − Ŝ)²/Σ W S²) per channel; 0 for a channel that is 0 under the weight.
+    ///
+    /// # Errors
+    /// [`LowRankError::Mismatch`] if table, weight and factors have different sizes or channels.
+    pub fn relative_errors(&self, table: &Grid, factors: &LowRank) -> Result<Vec<f64>, LowRankError> {
+        self.require(table)?;
+        let error = |(channel, terms): (&Channel, Terms)| {
+            let s = of_channel(table, channel);
+            let whole = self.squared(&s, None);
+            if whole == 0.0 { 0.0 } else { (self.squared(&s, Some(&terms)) / whole).sqrt() }
+        };
+        Ok(factors.matched(table)?.into_iter().map(error).collect())
+    }
+
+    fn require(&self, table: &Grid) -> Result<(), LowRankError> {
+        if self.nx == table.x.count && self.values.len() == table.x.count * table.y.count {
+            return Ok(());
+        }
+        Err(LowRankError::Mismatch {
+            origin: table.origin.clone(),
+            what: format!("the weight has {} values of another shape", self.values.len()),
+        })
+    }
+}
+
+/// Fits factors of rank `rank` to every channel under one weight, from the singular value
+/// decomposition: never worse than it under the weight.
+///
+/// # Errors
+/// As [`Grid::check`]; [`LowRankError::Rank`]; [`LowRankError::Mismatch`] if the weight has another
+/// size than the table; [`LowRankError::NotConverged`].
+pub fn weighted(
+    table: &Grid,
+    alignment: Alignment,
+    rank: usize,
+    weight: &Weight,
+    stopping: Stopping,
+) -> Result<LowRank, LowRankError> {
+    table.check()?;
+    weight.require(table)?;
+    let fit = |_: usize, s: &Mat<f64>, mut terms: Terms| {
+        let mut before = weight.squared(s, Some(&terms));
+        for _ in 0..stopping.sweeps {
+            terms.vertical = side(&terms.horizontal, &terms.vertical, |i, j| (weight.at(i, j), s[(i, j)]));
+            terms.horizontal = side(&terms.vertical, &terms.horizontal, |j, i| (weight.at(i, j), s[(i, j)]));
+            let after = weight.squared(s, Some(&terms));
+            if stopping.is_over(before, after) {
+                break;
+            }
+            before = after;
+        }
+        Ok((terms.orthogonal(&table.origin)?, ()))
+    };
+    Ok(per_channel(table, alignment, rank, fit)?.0)
+}
+
+/// The rows of one side of least error, the other held; `texel` gives weight and value at (row of
+/// this side, row of the other).
+fn side(other: &Mat<f64>, now: &Mat<f64>, texel: impl Fn(usize, usize) -> (f64, f64)) -> Mat<f64> {
+    let rank = other.ncols();
+    let mut next = now.clone();
+    for i in 0..now.nrows() {
+        let mut normal = Mat::<f64>::zeros(rank, rank);
+        let mut right = Mat::<f64>::zeros(rank, 1);
+        for j in 0..other.nrows() {
+            let (w, s) = texel(i, j);
+            if w == 0.0 {
+                continue;
+            }
+            for m in 0..rank {
+                let weighted = w * other[(j, m)];
+                right[(m, 0)] += weighted * s;
+                for k in 0..=m {
+                    normal[(m, k)] += weighted * other[(j, k)];
+                }
+            }
+        }
+        let towards = now.as_ref().subrows(i, 1).transpose().to_owned();
+        let row = solve_towards(normal, right, towards.as_ref(), ANCHOR);
+        for m in 0..rank {
+            next[(i, m)] = row[(m, 0)];
+        }
+    }
+    next
+}
