@@ -7,7 +7,7 @@ use image::Rgb;
 use image::codecs::hdr::HdrEncoder;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore, SeedableRng};
-use striae::measured::{Environment, MeasuredError};
+use striae::measured::{Environment, MeasuredError, Negative};
 use striae::render::image::{Channel, Image};
 use striae::table::provenance::Provenance;
 
@@ -320,6 +320,30 @@ fn exr_files_of_other_content_are_refused() -> Outcome {
         &["memory", "100 values", "expected 128", "16 × 8"],
     );
     assert_refused(Environment::new(1 << 20, 1 << 19, vec![], "memory"), &["memory", "declares"]);
+    Ok(())
+}
+
+#[test]
+fn negative_values_become_black_only_where_asked() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("e.exr");
+    let write = |r: Vec<f32>| {
+        let channel = |name: &str, values: Vec<f32>| Channel { name: name.into(), values };
+        let channels =
+            vec![channel("R", r), channel("G", vec![2.0; 128]), channel("B", vec![3.0; 128])];
+        Image { width: 16, height: 8, channels }.write_exr(&path)
+    };
+    let mut red = vec![1.0; 128];
+    (red[3], red[20]) = (-0.25, -0.5);
+    write(red.clone())?;
+    let says = ["2 of 128 texels are negative", "column 3, row 0", "is -0.25"];
+    assert_refused(Environment::read(&path), &says);
+    let map = Environment::read_with(&path, Negative::Black)?;
+    assert_eq!((map.radiance[3], map.radiance[4]), ([0.0, 2.0, 3.0], [1.0, 2.0, 3.0]));
+    assert!(map.origin.ends_with("), 2 negative values, down to -0.5, taken as 0"));
+    red[5] = f32::NEG_INFINITY;
+    write(red)?;
+    assert_refused(Environment::read_with(&path, Negative::Black), &["1 of 128", "not finite"]);
     Ok(())
 }
 
