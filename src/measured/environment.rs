@@ -31,6 +31,15 @@ pub struct Environment {
     pub origin: String,
 }
 
+/// What becomes of negative values in a file, which lossy packing leaves beside bright texels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Negative {
+    /// They are an error.
+    Refused,
+    /// They become 0, and the origin says how many did and which was lowest.
+    Black,
+}
+
 impl Environment {
     /// A map of given radiance, row by row from the zenith; `origin` says where it is from.
     ///
@@ -57,7 +66,15 @@ impl Environment {
     /// [`MeasuredError`] naming the file: not there, another format, malformed or truncated,
     /// missing channels (listing those there), and as [`Environment::check`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeasuredError> {
-        environment_file::read(path.as_ref())
+        Self::read_with(path, Negative::Refused)
+    }
+
+    /// As [`Environment::read`], with a say in what becomes of negative values.
+    ///
+    /// # Errors
+    /// As [`Environment::read`].
+    pub fn read_with(path: impl AsRef<Path>, negative: Negative) -> Result<Self, MeasuredError> {
+        environment_file::read(path.as_ref(), negative)
     }
 
     /// Writes the map as EXR with channels `R`, `G`, `B`, whole or not at all; the same map always

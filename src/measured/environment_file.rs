@@ -6,7 +6,7 @@ use std::path::Path;
 use image::codecs::hdr::HdrDecoder;
 use image::{DynamicImage, ImageDecoder};
 
-use super::environment::require_size;
+use super::environment::{Negative, require_size};
 use super::{Environment, MeasuredError};
 use crate::table::{decode_exr, encode_exr, encode_half_exr, store};
 
@@ -22,8 +22,15 @@ const SMALLEST_HALF: f32 = 1.0 / 16_777_216.0;
 /// What Radiance files of another tool begin with; the decoder knows `#?RADIANCE` alone.
 const OTHER_SIGNATURE: &[u8] = b"#?RGBE";
 
+/// Texels of a file, not yet looked at.
+struct Texels {
+    width: usize,
+    height: usize,
+    radiance: Vec<[f32; 3]>,
+}
+
 /// Reads a map, of the format that the name ends in.
-pub(super) fn read(path: &Path) -> Result<Environment, MeasuredError> {
+pub(super) fn read(path: &Path, negative: Negative) -> Result<Environment, MeasuredError> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
     let decode = match extension.as_str() {
         "hdr" => radiance,
@@ -34,9 +41,29 @@ pub(super) fn read(path: &Path) -> Result<Environment, MeasuredError> {
         }
     };
     let bytes = store::read(path)?;
-    let mut map = decode(&path.display().to_string(), &bytes)?;
-    map.origin = format!("{} (sha256 {})", path.display(), store::sha256_hex(&bytes));
+    let origin = path.display().to_string();
+    let Texels { width, height, mut radiance } = decode(&origin, &bytes)?;
+    let black = match negative {
+        Negative::Refused => None,
+        Negative::Black => raise_to_black(&mut radiance),
+    };
+    let mut map = Environment::new(width, height, radiance, origin)?;
+    map.origin = format!("{} (sha256 {})", map.origin, store::sha256_hex(&bytes));
+    if let Some((count, lowest)) = black {
+        map.origin.push_str(&format!(", {count} negative values, down to {lowest}, taken as 0"));
+    }
     Ok(map)
+}
+
+/// Makes finite negative values 0; says how many there were, if any, and the lowest.
+fn raise_to_black(radiance: &mut [[f32; 3]]) -> Option<(usize, f32)> {
+    let mut found = None;
+    for value in radiance.iter_mut().flatten().filter(|v| **v < 0.0 && v.is_finite()) {
+        let (count, lowest) = found.unwrap_or((0, 0.0f32));
+        found = Some((count + 1, lowest.min(*value)));
+        *value = 0.0;
+    }
+    found
 }
 
 /// Writes a map as EXR.
@@ -57,7 +84,7 @@ pub(super) fn write(map: &Environment, path: &Path) -> Result<(), MeasuredError>
     Ok(store::atomic_write(path, &bytes)?)
 }
 
-fn exr(origin: &str, bytes: &[u8]) -> Result<Environment, MeasuredError> {
+fn exr(origin: &str, bytes: &[u8]) -> Result<Texels, MeasuredError> {
     let decoded = decode_exr(origin, bytes)?;
     let plane = |name: &str| decoded.channels.iter().find(|(n, _)| n == name).map(|(_, v)| v);
     let [Some(r), Some(g), Some(b)] = CHANNELS.map(plane) else {
@@ -70,11 +97,11 @@ fn exr(origin: &str, bytes: &[u8]) -> Result<Environment, MeasuredError> {
             known: names.join(", "),
         });
     };
-    let texels = r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b]).collect();
-    Environment::new(decoded.width, decoded.height, texels, origin)
+    let radiance = r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b]).collect();
+    Ok(Texels { width: decoded.width, height: decoded.height, radiance })
 }
 
-fn radiance(origin: &str, bytes: &[u8]) -> Result<Environment, MeasuredError> {
+fn radiance(origin: &str, bytes: &[u8]) -> Result<Texels, MeasuredError> {
     let fault = |reason: String| MeasuredError::Decoder {
         origin: origin.into(),
         format: "Radiance file",
@@ -109,5 +136,5 @@ fn radiance(origin: &str, bytes: &[u8]) -> Result<Environment, MeasuredError> {
     let [r, g, b] = divisors;
     let (width, height) = (pixels.width() as usize, pixels.height() as usize);
     let texels = pixels.pixels().map(|pixel| pixel.0).map(|[x, y, z]| [x / r, y / g, z / b]);
-    Environment::new(width, height, texels.collect(), origin)
+    Ok(Texels { width, height, radiance: texels.collect() })
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Environment, HeightMap, MeasuredError, refractive_index};
+use super::{Environment, HeightMap, MeasuredError, Negative, refractive_index};
 use crate::table::{Table, sidecar_path};
 
 /// An imported file.
@@ -77,18 +77,26 @@ impl Imported {
 struct Format {
     name: &'static str,
     extensions: &'static [&'static str],
-    read: fn(&Path) -> Result<Imported, MeasuredError>,
+    read: fn(&Path, Negative) -> Result<Imported, MeasuredError>,
 }
 
 const FORMATS: &[Format] = &[
     Format {
         name: "refractiveindex.info YAML",
         extensions: &["yml", "yaml"],
-        read: refractive_index::import,
+        read: |path, _| refractive_index::import(path),
     },
-    Format { name: "CSV table", extensions: &["csv"], read: import_csv },
-    Format { name: RADIANCE_MAP, extensions: &["hdr"], read: |p| environment(p, RADIANCE_MAP) },
-    Format { name: RAW_HEIGHTS, extensions: &["f32"], read: |p| height_map(p, RAW_HEIGHTS) },
+    Format { name: "CSV table", extensions: &["csv"], read: |path, _| import_csv(path) },
+    Format {
+        name: RADIANCE_MAP,
+        extensions: &["hdr"],
+        read: |path, negative| environment(path, negative, RADIANCE_MAP),
+    },
+    Format {
+        name: RAW_HEIGHTS,
+        extensions: &["f32"],
+        read: |path, _| height_map(path, RAW_HEIGHTS),
+    },
     Format { name: "EXR environment map or height map", extensions: &["exr"], read: import_exr },
 ];
 
@@ -102,9 +110,17 @@ const RAW_HEIGHTS: &str = "raw height map";
 /// [`MeasuredError::UnknownFormat`], listing the formats, for another extension; otherwise what
 /// the format's reader finds wrong, with the file and, in text, the line.
 pub fn import(path: &Path) -> Result<Imported, MeasuredError> {
+    import_with(path, Negative::Refused)
+}
+
+/// As [`import`], with a say in what becomes of negative values of an environment map.
+///
+/// # Errors
+/// As [`import`].
+pub fn import_with(path: &Path, negative: Negative) -> Result<Imported, MeasuredError> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
     match FORMATS.iter().find(|f| f.extensions.contains(&extension.as_str())) {
-        Some(format) => (format.read)(path),
+        Some(format) => (format.read)(path, negative),
         None => Err(MeasuredError::UnknownFormat { path: path.into(), known: known_formats() }),
     }
 }
@@ -124,16 +140,20 @@ fn import_csv(path: &Path) -> Result<Imported, MeasuredError> {
     Ok(Imported { content: Content::Table(table), format: "CSV table", notes })
 }
 
-fn import_exr(path: &Path) -> Result<Imported, MeasuredError> {
+fn import_exr(path: &Path, negative: Negative) -> Result<Imported, MeasuredError> {
     if sidecar_path(path).exists() {
         height_map(path, "EXR height map")
     } else {
-        environment(path, "EXR environment map")
+        environment(path, negative, "EXR environment map")
     }
 }
 
-fn environment(path: &Path, format: &'static str) -> Result<Imported, MeasuredError> {
-    let map = Environment::read(path)?;
+fn environment(
+    path: &Path,
+    negative: Negative,
+    format: &'static str,
+) -> Result<Imported, MeasuredError> {
+    let map = Environment::read_with(path, negative)?;
     let notes = vec![format!("from {}", map.origin)];
     Ok(Imported { content: Content::Environment(map), format, notes })
 }

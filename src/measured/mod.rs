@@ -22,9 +22,9 @@ pub mod spectra;
 mod tabulation;
 
 pub use self::dispersion::{Dispersion, Formula};
-pub use self::environment::Environment;
+pub use self::environment::{Environment, Negative};
 pub use self::error::MeasuredError;
 pub use self::height_map::HeightMap;
-pub use self::import::{Content, Imported, import, known_formats};
+pub use self::import::{Content, Imported, import, import_with, known_formats};
 pub use self::interpolation::linear;
 pub use self::pattern::{Encoding, Pattern};

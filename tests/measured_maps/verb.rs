@@ -84,6 +84,8 @@ fn bad_maps_are_refused() -> Outcome {
     refused(folder, &["m.f32", "-o", "out.csv"], &["out.csv", "a height map", ".exr"]);
     refused(folder, &["t.csv", out[0], out[1]], &["out.exr", "a table", ".csv"]);
     refused(folder, &["m.f32", "--width", "8", out[0], out[1]], &["--width", "a height map"]);
+    let flag = "--negative-as-black";
+    refused(folder, &["t.csv", flag, "-o", "out.csv"], &[flag, "t.csv is a table"]);
     let hall = repository("data/measured/environments/hall.exr");
     let hall = hall.to_str().ok_or("a name")?;
     refused(folder, &[hall, "--width", "9", out[0], out[1]], &["9 × 4", "twice as wide"]);
