@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::exhibit::{Exhibit, ExhibitError};
+use super::simulator::Simulator;
 use crate::form::{Form, FormError};
 use crate::table::Table;
 
@@ -223,6 +224,8 @@ pub struct Effect {
     pub references: &'static [Reference],
     /// Approximations.
     pub forms: &'static [FormEntry],
+    /// What makes tables of it.
+    pub simulators: &'static [Simulator],
     /// Families of tables made from measured data.
     pub families: &'static [Family],
     /// Where they are judged.
@@ -291,6 +294,14 @@ pub fn family(name: &str) -> Option<(&'static Effect, &'static Family)> {
         .find(|(_, family)| family.name == name)
 }
 
+/// The simulator called `name`, with its effect.
+pub fn simulator(name: &str) -> Option<(&'static Effect, &'static Simulator)> {
+    EFFECTS
+        .iter()
+        .flat_map(|effect| effect.simulators.iter().map(move |simulator| (*effect, simulator)))
+        .find(|(_, simulator)| simulator.name == name)
+}
+
 /// Every effect. To add one: its folder, and a line here.
 pub const EFFECTS: &[&Effect] = &[
     &super::sine_integral::EFFECT,
@@ -298,4 +309,5 @@ pub const EFFECTS: &[&Effect] = &[
     &super::scratch_response::EFFECT,
     &super::footprint::EFFECT,
     &super::area_light::EFFECT,
+    &super::diffraction::EFFECT,
 ];

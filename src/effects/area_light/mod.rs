@@ -30,6 +30,7 @@ pub const EFFECT: Effect = Effect {
         ],
         lights::FORMS,
     ),
+    simulators: &[],
     families: &[],
     regions: &joined::<_, 3, 8, 11>(
         [band::LOBES, band::SCENE_BANDS, band::NARROW],

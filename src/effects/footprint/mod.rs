@@ -69,6 +69,7 @@ pub const EFFECT: Effect = Effect {
                   instead of dotted ones.",
     references: &[RESPONSE, COVERAGE, END],
     forms: forms::FORMS,
+    simulators: &[],
     families: &[],
     regions: regions::REGIONS,
     hard_cases: hard_cases::HARD_CASES,

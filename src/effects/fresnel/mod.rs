@@ -53,6 +53,7 @@ pub const EFFECT: Effect = Effect {
                   evaluates it once per light and colour channel.",
     references: &[CONDUCTOR, DIELECTRIC, SCHLICK_WEIGHT],
     forms: forms::FORMS,
+    simulators: &[],
     families: &[materials::FAMILY],
     regions: &[ALL_ANGLES],
     hard_cases: &[hard_cases::HARD_CASES],

@@ -72,6 +72,7 @@ pub const EFFECT: Effect = Effect {
         reference::DENSITY,
     ],
     forms: forms::FORMS,
+    simulators: &[],
     families: &[],
     regions: regions::REGIONS,
     hard_cases: &[hard_cases::HARD_CASES],

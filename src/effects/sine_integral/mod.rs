@@ -37,6 +37,7 @@ pub const EFFECT: Effect = Effect {
                   a difference of two values of Si, taken per light, scratch and wavelength.",
     references: &[REFERENCE],
     forms: FORMS,
+    simulators: &[],
     families: &[],
     regions: hard_cases::REGIONS,
     hard_cases: &[hard_cases::HARD_CASES],

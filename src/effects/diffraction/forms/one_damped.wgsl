@@ -1,0 +1,8 @@
+// The first order, damped as the mirror is: J_1(a)^2 = a^2/4 (1 - a^2/4 + ...).
+
+override rate: f32 = 0.25;
+
+fn sinusoid_first_order(phase: f32) -> f32 {
+    let s = phase * phase;
+    return 0.25 * s * exp(-rate * s);
+}

@@ -1,0 +1,227 @@
+//! What a simulation says of its table: orders, energies, and what each step of the preparation did.
+
+use super::far_field::{FarField, Transform};
+use super::orders::{fundamental, orders, predicted_power, sinusoid_amplitude};
+use super::preparation::{Detrend, Missing, Preparation, PreparedSurface, Window, prepared};
+use super::simulate::{Origin, padding, preparation, shape, w};
+use super::steps::{Step, changes};
+use super::table::DiffractionTable;
+use super::DiffractionError;
+use crate::effects::exhibit::{ExhibitCell, ExhibitTable};
+use crate::effects::simulator::{Settings, Simulation};
+
+/// Share of the heights' variance above which a surface counts as a sinusoid.
+const SINUSOIDAL: f64 = 0.5;
+/// Highest order that is looked for.
+const MOST_ORDERS: i32 = 3;
+
+pub(super) fn described(
+    settings: &Settings,
+    table: DiffractionTable,
+    origin: Origin,
+) -> Result<Simulation, DiffractionError> {
+    let mut notes = Vec::new();
+    let mut tables = vec![energies(&table)];
+    match origin {
+        Origin::Pattern(placing) => notes.push(format!(
+            "S at λ is (λ₀/λ)^{} times S at λ₀ = {} nm, scaled in h by λ/λ₀; the pattern's total \
+             counts as all power at λ₀",
+            placing.exponent, placing.wavelength_nm
+        )),
+        Origin::Heights(heights, surface) => {
+            let wavelength = settings.number("report_nm", 1.0, 1e5)?;
+            let shape = shape(settings)?;
+            let (size, extent) = (shape.size[0], shape.extent);
+            let transform = Transform::new(&surface, padding(settings)?)?;
+            let field = transform.far_field(&surface, wavelength, w(settings)?);
+            notes.push(sampling(&surface, &field, size, extent));
+            let hann = prepared(&heights, Preparation { window: Window::Hann, ..preparation(settings)? })?;
+            if let Some(frequency) = fundamental(&hann)? {
+                notes.push(zero_order(&field, frequency));
+                let (note, table) = order_table(settings, &surface, &field, frequency, size, extent)?;
+                notes.extend(note);
+                tables.push(table);
+            }
+            let steps = steps(&heights, &surface, preparation(settings)?, padding(settings)?);
+            tables.push(changes(&heights, &steps, wavelength, w(settings)?, size, extent)?);
+        }
+    }
+    Ok(Simulation { grid: table.grid, notes, tables })
+}
+
+fn number(value: f64) -> ExhibitCell {
+    ExhibitCell::Number(value)
+}
+
+/// Shares of the power at the first, the middle and the last wavelength.
+fn energies(table: &DiffractionTable) -> ExhibitTable {
+    let last = table.wavelengths_nm.len().saturating_sub(1);
+    let mut at = vec![0, last / 2, last];
+    at.dedup();
+    let row = |i: usize| -> Option<Vec<ExhibitCell>> {
+        let (total, inside) = (*table.total.get(i)?, *table.inside.get(i)?);
+        let evanescent = *table.evanescent.get(i)?;
+        Some(vec![
+            number(*table.wavelengths_nm.get(i)?),
+            number(total),
+            number(inside),
+            number(total - inside),
+            number(evanescent),
+        ])
+    };
+    let column = |name: &str, unit| (name.to_owned(), unit);
+    ExhibitTable {
+        caption: "Shares of the reflected power".into(),
+        columns: vec![
+            column("wavelength", "nm"),
+            column("sum over all frequencies", "1"),
+            column("inside the table", "1"),
+            column("outside", "1"),
+            column("beyond |h| = 1", "1"),
+        ],
+        rows: at.into_iter().filter_map(row).collect(),
+    }
+}
+
+fn sampling(surface: &PreparedSurface, field: &FarField, size: usize, extent: f64) -> String {
+    let wavelength_um = 1e-3 * field.wavelength_nm;
+    let [cell_x, cell_y] = field.cells().map(|cells| cells.pitch);
+    let reach = |d: f64| wavelength_um / (2.0 * d);
+    format!(
+        "{} × {} samples of {:.4} × {:.4} µm: at {} nm a cell of the transform is {:.5} × {:.5} in h, \
+         a texel {:.5}, and the samples reach |h| = {:.2} and {:.2}; tilt of {:.3} and {:.3} nm/µm \
+         taken off, {} samples missing",
+        surface.nx,
+        surface.ny,
+        surface.dx_um,
+        surface.dy_um,
+        field.wavelength_nm,
+        cell_x,
+        cell_y,
+        2.0 * extent / size as f64,
+        reach(surface.dx_um),
+        reach(surface.dy_um),
+        surface.removed.slope[0],
+        surface.removed.slope[1],
+        surface.missing
+    )
+}
+
+fn zero_order(field: &FarField, frequency: [f64; 2]) -> String {
+    let near = 0.5 * frequency[0].hypot(frequency[1]);
+    let share = field.share(|fx, fy| fx.hypot(fy) < near);
+    format!(
+        "zero order, |h| below half the first: {:.4} of the power at {} nm",
+        share, field.wavelength_nm
+    )
+}
+
+fn order_table(
+    settings: &Settings,
+    surface: &PreparedSurface,
+    field: &FarField,
+    frequency: [f64; 2],
+    size: usize,
+    extent: f64,
+) -> Result<(Vec<String>, ExhibitTable), DiffractionError> {
+    let mut notes = vec![format!(
+        "pitch of the heights: {:.4} µm, at {:.2}° from x",
+        1.0 / frequency[0].hypot(frequency[1]),
+        frequency[1].atan2(frequency[0]).to_degrees()
+    )];
+    let phase_per_nm = std::f64::consts::TAU * w(settings)? / field.wavelength_nm;
+    let amplitude = sinusoid_amplitude(surface, frequency);
+    let sinusoid = amplitude.filter(|a| a.explained > SINUSOIDAL);
+    if let Some(a) = amplitude {
+        notes.push(format!(
+            "a sinusoid of that pitch explains {:.1} % of the variance, row by row; amplitude \
+             {:.2} ± {:.2} nm ({:.2} nm from row to row, {:.1} independent rows), phase {:.4} rad{}",
+            100.0 * a.explained,
+            a.nm,
+            a.standard_error_nm,
+            a.spread_nm,
+            a.effective_rows,
+            phase_per_nm * a.nm,
+            if sinusoid.is_some() { "" } else { ": no sinusoid, J_m² does not apply" }
+        ));
+    }
+    let widths =
+        [surface.nx as f64 * surface.dx_um, surface.ny as f64 * surface.dy_um];
+    let found = orders(field, frequency, widths, MOST_ORDERS, size, extent);
+    let mut rows = Vec::new();
+    for order in &found {
+        let (power, uncertainty) = match sinusoid {
+            Some(a) => {
+                let phase = (phase_per_nm * a.nm).min(20.0);
+                predicted_power(order.order.unsigned_abs(), phase, phase_per_nm * a.standard_error_nm)
+                    .map_or((f64::NAN, f64::NAN), |p| p)
+            }
+            None => (f64::NAN, f64::NAN),
+        };
+        let shown = |v: f64| {
+            if v.is_nan() { ExhibitCell::Text("–".into()) } else { number(v) }
+        };
+        rows.push(vec![
+            number(f64::from(order.order)),
+            number(order.predicted[0]),
+            number(order.predicted[1]),
+            number(order.found[0]),
+            number(order.found[1]),
+            number(order.texels_off),
+            shown(power),
+            shown(uncertainty),
+            number(order.power),
+        ]);
+    }
+    let column = |name: &str, unit| (name.to_owned(), unit);
+    let table = ExhibitTable {
+        caption: format!("Orders at {} nm: m λ/d, and what the table has", field.wavelength_nm),
+        columns: vec![
+            column("m", "1"),
+            column("h_x predicted", "1"),
+            column("h_y predicted", "1"),
+            column("h_x found", "1"),
+            column("h_y found", "1"),
+            column("off", "texels"),
+            column("J_m²", "1"),
+            column("u(J_m²)", "1"),
+            column("power found", "1"),
+        ],
+        rows,
+    };
+    Ok((notes, table))
+}
+
+fn steps(
+    heights: &crate::measured::height_map::HeightMap,
+    surface: &PreparedSurface,
+    usual: Preparation,
+    padding: usize,
+) -> Vec<Step> {
+    let step = |name: &str, preparation, padding| Step { name: name.into(), preparation, padding };
+    let mut steps = vec![step("as set", usual, padding)];
+    if usual.detrend != Detrend::Nothing {
+        steps.push(step("trend left in", Preparation { detrend: Detrend::Nothing, ..usual }, padding));
+    }
+    let other = |window| Preparation { window, ..usual };
+    for (name, window) in
+        [("no window", Window::Rectangle), ("Hann window", Window::Hann), ("Tukey window", Window::Tukey)]
+    {
+        if window != usual.window {
+            steps.push(step(name, other(window), padding));
+        }
+    }
+    if surface.missing > 0 {
+        let (name, missing) = match usual.missing {
+            Missing::Fill => ("missing samples masked", Missing::Mask),
+            Missing::Mask => ("missing samples filled", Missing::Fill),
+        };
+        steps.push(step(name, Preparation { missing, ..usual }, padding));
+    }
+    let more = padding * 2;
+    let fits = heights.nx * heights.ny * more * more <= super::preparation::MOST_SAMPLES;
+    if fits {
+        steps.push(step("twice the padding", usual, more));
+    }
+    steps
+}

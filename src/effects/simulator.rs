@@ -1,0 +1,238 @@
+//! Simulators: what makes a table from the physics of an effect, with settings as text.
+
+use std::collections::BTreeMap;
+
+use super::exhibit::ExhibitTable;
+use crate::measured::spectra::Spectra;
+use crate::table::Grid;
+
+/// A setting of a simulator.
+#[derive(Debug, Clone, Copy)]
+pub struct Parameter {
+    /// Name, as in `--set name=value`.
+    pub name: &'static str,
+    /// Unit of a number, `1` for a pure one; empty for a word or a file.
+    pub unit: &'static str,
+    /// Value where it is not set; empty for none.
+    pub default: &'static str,
+    /// What it is, and its domain.
+    pub description: &'static str,
+}
+
+/// Makes a table of one effect.
+#[derive(Debug, Clone, Copy)]
+pub struct Simulator {
+    /// Name, as in `striae simulate NAME`.
+    pub name: &'static str,
+    /// One line.
+    pub description: &'static str,
+    /// What may be set.
+    pub parameters: &'static [Parameter],
+    /// Makes the table.
+    pub run: fn(&Settings, &Spectra) -> Result<Simulation, SimulationError>,
+}
+
+/// A simulated table, and what was measured on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simulation {
+    /// The table.
+    pub grid: Grid,
+    /// What is said of it, one line each.
+    pub notes: Vec<String>,
+    /// Numbers: orders, energies, what each step changes.
+    pub tables: Vec<ExhibitTable>,
+}
+
+/// Why a simulation could not be made.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct SimulationError(pub String);
+
+/// Settings of a simulator: what was given, and the defaults of what was not.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    parameters: &'static [Parameter],
+    given: BTreeMap<&'static str, String>,
+}
+
+/// Why a setting is not accepted.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// No `=`, or nothing before it.
+    #[error("setting `{text}`: expected key=value")]
+    NotAnAssignment {
+        /// As given.
+        text: String,
+    },
+    /// A name that the simulator does not know.
+    #[error("setting `{key}` is not known; known: {known}")]
+    UnknownKey {
+        /// As given.
+        key: String,
+        /// The names that are known.
+        known: String,
+    },
+    /// A name given twice.
+    #[error("setting `{key}` is given twice")]
+    Twice {
+        /// The name.
+        key: String,
+    },
+    /// A value that is not what the setting takes.
+    #[error("setting `{key}`: expected {expected}{unit}, got `{got}`")]
+    Value {
+        /// The name.
+        key: String,
+        /// What it takes.
+        expected: String,
+        /// Its unit between brackets, after a space; empty for none.
+        unit: String,
+        /// As given.
+        got: String,
+    },
+    /// Settings that exclude or need each other.
+    #[error("setting `{key}`: {reason}")]
+    Conflict {
+        /// The name.
+        key: String,
+        /// What stands in the way.
+        reason: String,
+    },
+}
+
+impl Settings {
+    /// All defaults.
+    pub fn new(parameters: &'static [Parameter]) -> Self {
+        Self { parameters, given: BTreeMap::new() }
+    }
+
+    /// Reads `key=value` texts.
+    ///
+    /// # Errors
+    /// [`SettingsError`] for a text without `=`, an unknown key (listing the known ones) and a key
+    /// given twice.
+    pub fn parse<S: AsRef<str>>(
+        parameters: &'static [Parameter],
+        assignments: &[S],
+    ) -> Result<Self, SettingsError> {
+        let mut settings = Self::new(parameters);
+        for text in assignments {
+            let text = text.as_ref();
+            let (key, value) = text
+                .split_once('=')
+                .map(|(key, value)| (key.trim(), value.trim()))
+                .filter(|(key, _)| !key.is_empty())
+                .ok_or_else(|| SettingsError::NotAnAssignment { text: text.into() })?;
+            let name = settings.known(key)?.name;
+            if settings.given.insert(name, value.to_owned()).is_some() {
+                return Err(SettingsError::Twice { key: key.into() });
+            }
+        }
+        Ok(settings)
+    }
+
+    fn known(&self, key: &str) -> Result<&'static Parameter, SettingsError> {
+        self.parameters.iter().find(|p| p.name == key).ok_or_else(|| SettingsError::UnknownKey {
+            key: key.into(),
+            known: self.parameters.iter().map(|p| p.name).collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// Whether `key` was given.
+    pub fn is_given(&self, key: &str) -> bool {
+        self.given.contains_key(key)
+    }
+
+    /// The value of `key` as text, the default where it was not given.
+    ///
+    /// # Errors
+    /// [`SettingsError::UnknownKey`].
+    pub fn text(&self, key: &str) -> Result<&str, SettingsError> {
+        let parameter = self.known(key)?;
+        Ok(self.given.get(key).map_or(parameter.default, String::as_str))
+    }
+
+    /// The value of `key`, a finite number in [`lowest`, `highest`].
+    ///
+    /// # Errors
+    /// [`SettingsError::Value`] with the range and the unit.
+    pub fn number(&self, key: &str, lowest: f64, highest: f64) -> Result<f64, SettingsError> {
+        let text = self.text(key)?;
+        let number = text.parse::<f64>().ok().filter(|v| (lowest..=highest).contains(v));
+        number.ok_or_else(|| self.refused(key, &format!("a number from {lowest} to {highest}")))
+    }
+
+    /// The value of `key`, a whole number in [`lowest`, `highest`].
+    ///
+    /// # Errors
+    /// [`SettingsError::Value`] with the range and the unit.
+    pub fn count(&self, key: &str, lowest: usize, highest: usize) -> Result<usize, SettingsError> {
+        let text = self.text(key)?;
+        let number = text.parse::<usize>().ok().filter(|v| (lowest..=highest).contains(v));
+        number
+            .ok_or_else(|| self.refused(key, &format!("a whole number from {lowest} to {highest}")))
+    }
+
+    /// The choice that the value of `key` names.
+    ///
+    /// # Errors
+    /// [`SettingsError::Value`] listing the names.
+    pub fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<T, SettingsError> {
+        let text = self.text(key)?;
+        let found = choices.iter().find(|(name, _)| *name == text).map(|(_, choice)| *choice);
+        found.ok_or_else(|| {
+            let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
+            self.refused(key, &format!("one of {}", names.join(", ")))
+        })
+    }
+
+    /// The error for a value of `key` that is not `expected`.
+    pub fn refused(&self, key: &str, expected: &str) -> SettingsError {
+        let unit = self.parameters.iter().find(|p| p.name == key).map_or("", |p| p.unit);
+        SettingsError::Value {
+            key: key.into(),
+            expected: expected.into(),
+            unit: if unit.is_empty() { String::new() } else { format!(" [{unit}]") },
+            got: self.text(key).unwrap_or_default().into(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PARAMETERS: &[Parameter] = &[
+        Parameter { name: "size", unit: "1", default: "3", description: "" },
+        Parameter { name: "window", unit: "", default: "hann", description: "" },
+    ];
+
+    #[test]
+    fn settings_are_read_and_defaults_stand_in() {
+        let settings = Settings::parse(PARAMETERS, &[" size = 5"]).expect("settings");
+        assert_eq!(settings.count("size", 1, 9), Ok(5));
+        assert_eq!(settings.text("window"), Ok("hann"));
+        assert!(settings.is_given("size") && !settings.is_given("window"));
+        assert_eq!(Settings::new(PARAMETERS).number("size", 0.0, 9.0), Ok(3.0));
+    }
+
+    #[test]
+    fn refusals_name_the_key_and_what_is_known() {
+        let refused = |texts: &[&str]| {
+            Settings::parse(PARAMETERS, texts).expect_err("a refusal").to_string()
+        };
+        assert!(refused(&["size"]).contains("key=value"));
+        assert!(refused(&["=1"]).contains("key=value"));
+        assert!(refused(&["sise=1"]).contains("known: size, window"));
+        assert!(refused(&["size=1", "size=2"]).contains("twice"));
+        for text in ["size=x", "size=nan", "size=10", "size=-1", "size=1.5"] {
+            let settings = Settings::parse(PARAMETERS, &[text]).expect("settings");
+            let error = settings.count("size", 1, 9).expect_err("a refusal").to_string();
+            assert!(error.contains("whole number from 1 to 9 [1]"), "{error}");
+        }
+        let settings = Settings::parse(PARAMETERS, &["window=box"]).expect("settings");
+        let error = settings.choice("window", &[("hann", 1)]).expect_err("a refusal").to_string();
+        assert!(error.contains("one of hann, got `box`"), "{error}");
+    }
+}
