@@ -211,7 +211,7 @@ fn maps_outside_the_repository_are_read() -> Outcome {
         (
             "striated_metal_x3p/aluminium_wire_cut",
             [231, 172],
-            0.705_778_717_406_674_3,
+            0.705_778_717_406_624_3,
             [-29_960.613_281_25, 24_387.736_328_125],
         ),
     ] {
