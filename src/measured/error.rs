@@ -87,9 +87,9 @@ pub enum MeasuredError {
         /// What is counted, in the plural.
         what: &'static str,
         /// Number that is there.
-        got: u128,
-        /// Number that is needed.
-        expected: u128,
+        got: u64,
+        /// Number that is needed; the largest number that fits if it is larger still.
+        expected: u64,
         /// Number across.
         width: usize,
         /// Number down.

@@ -77,12 +77,12 @@ fn heights(
     sidecar: &Sidecar,
 ) -> Result<HeightMap, MeasuredError> {
     let (nx, ny) = (sidecar.nx, sidecar.ny);
-    let expected = (nx as u128).saturating_mul(ny as u128).saturating_mul(4);
-    if bytes.len() as u128 != expected {
+    let expected = (nx as u64).saturating_mul(ny as u64).saturating_mul(4);
+    if bytes.len() as u64 != expected {
         return Err(MeasuredError::Length {
             origin: origin.into(),
             what: "bytes",
-            got: bytes.len() as u128,
+            got: bytes.len() as u64,
             expected,
             width: nx,
             height: ny,

@@ -41,12 +41,13 @@ pub(super) fn decode(origin: &str, bytes: &[u8]) -> Result<Picture, MeasuredErro
         return Err(fault(format!("scale factor: expected a number that is not 0, got {text:?}")));
     };
 
-    let expected = width as u128 * height as u128 * names.len() as u128 * 4;
-    if rest.len() as u128 != expected {
+    let pixels = (width as u64).saturating_mul(height as u64);
+    let expected = pixels.saturating_mul(4 * names.len() as u64);
+    if rest.len() as u64 != expected {
         return Err(MeasuredError::Length {
             origin: origin.into(),
             what: "bytes of pixels",
-            got: rest.len() as u128,
+            got: rest.len() as u64,
             expected,
             width,
             height,

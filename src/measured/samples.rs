@@ -41,14 +41,14 @@ pub(super) fn require_count(
     height: usize,
     got: usize,
 ) -> Result<(), MeasuredError> {
-    let expected = width as u128 * height as u128;
-    if got as u128 == expected {
+    let (got, expected) = (got as u64, (width as u64).saturating_mul(height as u64));
+    if got == expected {
         return Ok(());
     }
     Err(MeasuredError::Length {
         origin: origin.into(),
         what: "values",
-        got: got as u128,
+        got,
         expected,
         width,
         height,

@@ -18,7 +18,7 @@ const MUTATIONS: u64 = 400;
 fn mutated(good: &[u8], random: &mut ChaCha8Rng) -> Vec<u8> {
     let mut bytes = good.to_vec();
     for _ in 0..=random.next_u32() % 3 {
-        let head = if random.next_u32() % 2 == 0 { 400 } else { bytes.len() };
+        let head = if random.next_u32().is_multiple_of(2) { 400 } else { bytes.len() };
         let at = random.next_u64() as usize % head.min(bytes.len()).max(1);
         match random.next_u32() % 5 {
             0 => bytes.truncate(at),

@@ -164,7 +164,10 @@ fn malformed_portable_float_maps_are_refused() -> Outcome {
         (b"Pf\n2 2\nnan\n", &["p.pfm", "scale factor", "\"nan\""]),
         (b"Pf\n2 2\n-1", &["p.pfm", "ends before its scale factor"]),
         (b"Pf\n2 2\n-1\n1234", &["p.pfm", "4 bytes", "expected 16", "2 × 2"]),
-        (b"Pf\n4000000000 4000000000\n-1\n1234", &["p.pfm", "4 bytes", "expected 64000000000"]),
+        (
+            b"Pf\n1000000000 2000000000\n-1\n1234",
+            &["p.pfm", "4 bytes", "expected 8000000000000000000"],
+        ),
         (b"PF\n1 1\n-1\n1234567890123", &["p.pfm", "13 bytes", "expected 12", "3 f32"]),
     ] {
         std::fs::write(&path, bytes)?;

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use striae::measured::refractive_index::RefractiveIndex;
-use striae::measured::{Dispersion, Formula, MeasuredError, import};
+use striae::measured::{Dispersion, Formula, Imported, MeasuredError, import};
 
 use crate::{assert_says, repository};
 
