@@ -27,6 +27,7 @@ mod progress;
 mod project;
 mod render;
 mod render_table;
+mod simulate;
 mod specs;
 
 use std::process::ExitCode;
@@ -83,6 +84,7 @@ enum Verb {
     List(list::Arguments),
     Fit(fit::Arguments),
     Eval(eval::Arguments),
+    Simulate(simulate::Arguments),
     Render(render::Arguments),
     Bench(bench::Arguments),
     Report(report::Arguments),
@@ -111,6 +113,7 @@ fn run(line: CommandLine) -> anyhow::Result<Ending> {
         Verb::List(arguments) => list::run(&arguments, &context),
         Verb::Fit(arguments) => fit::run(&arguments, &context),
         Verb::Eval(arguments) => eval::run(&arguments, &context),
+        Verb::Simulate(arguments) => simulate::run(&arguments, &context),
         Verb::Render(arguments) => render::run(&arguments, &context),
         Verb::Bench(arguments) => bench::run(&arguments, &context),
         Verb::Report(arguments) => report::run(&arguments, &context),
