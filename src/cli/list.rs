@@ -11,7 +11,7 @@ use crate::effects::registry::EFFECTS;
 use crate::gate;
 use crate::render::Scene;
 
-/// List what there is: effects, references, forms, data, scenes, fits and gates
+/// List what there is: effects, references, forms, simulators, data, scenes, fits and gates
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  striae list\n  striae list forms --json")]
 pub(super) struct Arguments {
@@ -27,6 +27,8 @@ enum Kind {
     References,
     /// Approximations, as registered by the effects
     Forms,
+    /// What `simulate` makes tables of
+    Simulators,
     /// Sets of measured data
     Data,
     /// What `render` renders
@@ -94,6 +96,7 @@ impl Kind {
             Self::Effects => effects(),
             Self::References => references(),
             Self::Forms => forms(),
+            Self::Simulators => simulators(),
             Self::Data => data(context)?,
             Self::Scenes => scenes(context)?,
             Self::Fits => fits(context)?,
@@ -138,6 +141,18 @@ fn forms() -> Listing {
     Listing {
         title: "forms",
         header: &["name", "function", "reference", "description", "citation"],
+        rows: rows.collect(),
+    }
+}
+
+fn simulators() -> Listing {
+    let rows = EFFECTS.iter().flat_map(|effect| effect.simulators).map(|simulator| {
+        let settings: Vec<&str> = simulator.parameters.iter().map(|p| p.name).collect();
+        row([simulator.name, simulator.description, &settings.join(", ")])
+    });
+    Listing {
+        title: "simulators",
+        header: &["name", "description", "settings"],
         rows: rows.collect(),
     }
 }

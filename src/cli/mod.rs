@@ -31,6 +31,7 @@ mod progress;
 mod project;
 mod render;
 mod render_table;
+mod simulate;
 mod specs;
 
 use std::process::ExitCode;
@@ -88,6 +89,7 @@ enum Verb {
     Fit(fit::Arguments),
     Factor(factor::Arguments),
     Eval(eval::Arguments),
+    Simulate(simulate::Arguments),
     Render(render::Arguments),
     Bench(bench::Arguments),
     Report(report::Arguments),
@@ -117,6 +119,7 @@ fn run(line: CommandLine) -> anyhow::Result<Ending> {
         Verb::Fit(arguments) => fit::run(&arguments, &context),
         Verb::Factor(arguments) => factor::run(&arguments, &context),
         Verb::Eval(arguments) => eval::run(&arguments, &context),
+        Verb::Simulate(arguments) => simulate::run(&arguments, &context),
         Verb::Render(arguments) => render::run(&arguments, &context),
         Verb::Bench(arguments) => bench::run(&arguments, &context),
         Verb::Report(arguments) => report::run(&arguments, &context),

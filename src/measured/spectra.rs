@@ -33,9 +33,8 @@ pub struct Illuminant {
 }
 
 impl Illuminant {
-    fn read(path: &Path) -> Result<Self, MeasuredError> {
-        let table = Table::read_csv(path)?;
-        let wavelength_nm = increasing(&table)?;
+    fn of(table: &Table) -> Result<Self, MeasuredError> {
+        let wavelength_nm = increasing(table)?;
         Ok(Self { wavelength_nm, power: table.values_in("power", "1")? })
     }
 
@@ -77,16 +76,33 @@ impl Spectra {
     /// # Errors
     /// [`MeasuredError`] naming the file.
     pub fn load(folder: &Path) -> Result<Self, MeasuredError> {
-        let observer = Table::read_csv(folder.join("cie1931_xyz.csv"))?;
+        let read = |name| Table::read_csv(folder.join(name));
+        Self::of(&read("cie1931_xyz.csv")?, &read("illuminant_d65.csv")?, &read("illuminant_a.csv")?)
+    }
+
+    /// The same files as they were when the crate was built.
+    ///
+    /// # Errors
+    /// None that a build with readable files has.
+    pub fn built_in() -> Result<Self, MeasuredError> {
+        let read = Table::read_csv_str;
+        Self::of(
+            &read("built-in cie1931_xyz.csv", include_str!("../../data/measured/spectra/cie1931_xyz.csv"))?,
+            &read("built-in illuminant_d65.csv", include_str!("../../data/measured/spectra/illuminant_d65.csv"))?,
+            &read("built-in illuminant_a.csv", include_str!("../../data/measured/spectra/illuminant_a.csv"))?,
+        )
+    }
+
+    fn of(observer: &Table, d65: &Table, a: &Table) -> Result<Self, MeasuredError> {
         Ok(Self {
-            wavelength_nm: increasing(&observer)?,
+            wavelength_nm: increasing(observer)?,
             observer: [
                 observer.values_in("x_bar", "1")?,
                 observer.values_in("y_bar", "1")?,
                 observer.values_in("z_bar", "1")?,
             ],
-            d65: Illuminant::read(&folder.join("illuminant_d65.csv"))?,
-            a: Illuminant::read(&folder.join("illuminant_a.csv"))?,
+            d65: Illuminant::of(d65)?,
+            a: Illuminant::of(a)?,
         })
     }
 

@@ -2,13 +2,14 @@
 
 use super::far_field::{FarField, Transform};
 use super::orders::{fundamental, orders, predicted_power, sinusoid_amplitude};
-use super::preparation::{Detrend, Missing, Preparation, PreparedSurface, Window, prepared};
+use super::preparation::{Detrend, MOST_SAMPLES, Missing, Preparation, PreparedSurface, Window, prepared};
 use super::simulate::{Origin, padding, preparation, shape, w};
 use super::steps::{Step, changes};
 use super::table::DiffractionTable;
 use super::DiffractionError;
 use crate::effects::exhibit::{ExhibitCell, ExhibitTable};
 use crate::effects::simulator::{Settings, Simulation};
+use crate::measured::height_map::HeightMap;
 
 /// Share of the heights' variance above which a surface counts as a sinusoid.
 const SINUSOIDAL: f64 = 0.5;
@@ -43,7 +44,7 @@ pub(super) fn described(
                 tables.push(table);
             }
             let steps = steps(&heights, &surface, preparation(settings)?, padding(settings)?);
-            tables.push(changes(&heights, &steps, wavelength, w(settings)?, size, extent)?);
+            tables.push(changes(&steps, wavelength, w(settings)?, size, extent)?);
         }
     }
     Ok(Simulation { grid: table.grid, notes, tables })
@@ -192,24 +193,25 @@ fn order_table(
     Ok((notes, table))
 }
 
-fn steps(
-    heights: &crate::measured::height_map::HeightMap,
+fn steps<'a>(
+    heights: &'a HeightMap,
     surface: &PreparedSurface,
     usual: Preparation,
     padding: usize,
-) -> Vec<Step> {
-    let step = |name: &str, preparation, padding| Step { name: name.into(), preparation, padding };
+) -> Vec<Step<'a>> {
+    let step = |name, preparation, padding| Step { name, heights, preparation, padding };
     let mut steps = vec![step("as set", usual, padding)];
     if usual.detrend != Detrend::Nothing {
-        steps.push(step("trend left in", Preparation { detrend: Detrend::Nothing, ..usual }, padding));
+        let tilted = Preparation { detrend: Detrend::Nothing, ..usual };
+        steps.push(step("trend left in", tilted, padding));
     }
-    let other = |window| Preparation { window, ..usual };
-    for (name, window) in
-        [("no window", Window::Rectangle), ("Hann window", Window::Hann), ("Tukey window", Window::Tukey)]
-    {
-        if window != usual.window {
-            steps.push(step(name, other(window), padding));
-        }
+    let windows = [
+        ("no window", Window::Rectangle),
+        ("Hann window", Window::Hann),
+        ("Tukey window", Window::Tukey),
+    ];
+    for (name, window) in windows.into_iter().filter(|(_, window)| *window != usual.window) {
+        steps.push(step(name, Preparation { window, ..usual }, padding));
     }
     if surface.missing > 0 {
         let (name, missing) = match usual.missing {
@@ -218,9 +220,8 @@ fn steps(
         };
         steps.push(step(name, Preparation { missing, ..usual }, padding));
     }
-    let more = padding * 2;
-    let fits = heights.nx * heights.ny * more * more <= super::preparation::MOST_SAMPLES;
-    if fits {
+    let (more, samples) = (2 * padding, heights.nx.saturating_mul(heights.ny));
+    if samples.saturating_mul(more * more) <= MOST_SAMPLES {
         steps.push(step("twice the padding", usual, more));
     }
     steps

@@ -7,11 +7,13 @@ use super::DiffractionError;
 use crate::effects::exhibit::{ExhibitCell, ExhibitTable};
 use crate::measured::height_map::HeightMap;
 
-/// A preparation under a name.
+/// Heights and their preparation, under a name.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Step {
+pub struct Step<'a> {
     /// What is done otherwise.
-    pub name: String,
+    pub name: &'static str,
+    /// The heights.
+    pub heights: &'a HeightMap,
     /// The preparation.
     pub preparation: Preparation,
     /// Padding of the transform.
@@ -38,8 +40,7 @@ pub struct StepEffect {
 /// # Errors
 /// As [`prepared`] and [`Transform::new`].
 pub fn step_effects(
-    heights: &HeightMap,
-    steps: &[Step],
+    steps: &[Step<'_>],
     wavelength_nm: f64,
     w: f64,
     size: usize,
@@ -48,7 +49,7 @@ pub fn step_effects(
     let mut first: Option<Vec<f64>> = None;
     let mut effects = Vec::new();
     for step in steps {
-        let surface = prepared(heights, step.preparation)?;
+        let surface = prepared(step.heights, step.preparation)?;
         let transform = Transform::new(&surface, step.padding)?;
         let field = transform.far_field(&surface, wavelength_nm, w);
         let (texels, _) = at_wavelength(&field, [size, size], extent);
@@ -100,16 +101,15 @@ fn strongest_order(field: &FarField, side_um: f64) -> ([f64; 2], f64) {
 
 /// [`step_effects`] as a table.
 pub(super) fn changes(
-    heights: &HeightMap,
-    steps: &[Step],
+    steps: &[Step<'_>],
     wavelength_nm: f64,
     w: f64,
     size: usize,
     extent: f64,
 ) -> Result<ExhibitTable, DiffractionError> {
-    let effects = step_effects(heights, steps, wavelength_nm, w, size, extent)?;
-    let row = |(step, effect): (&Step, &StepEffect)| {
-        let mut row = vec![ExhibitCell::Text(step.name.clone())];
+    let effects = step_effects(steps, wavelength_nm, w, size, extent)?;
+    let row = |(step, effect): (&Step<'_>, &StepEffect)| {
+        let mut row = vec![ExhibitCell::Text(step.name.into())];
         let numbers = [
             effect.relative_l2,
             effect.strongest[0],

@@ -1,0 +1,84 @@
+use super::grating::disc;
+use super::{GREEN_NM, number, series, table};
+use crate::effects::diffraction::DiffractionError;
+use crate::effects::diffraction::far_field::Transform;
+use crate::effects::diffraction::table::{NORMAL, at_wavelength};
+use crate::effects::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
+
+/// Mean of 1/cos θ over the disc |h| ≤ `extent`: 2 (1 − √(1 − u²))/u².
+pub(in crate::effects::diffraction) fn mean_over_disc(extent: f64) -> f64 {
+    let square = extent * extent;
+    2.0 * square / (1.0 + (1.0 - square).sqrt()) / square
+}
+
+/// For a disc under a white sky, away from the mirror (|h| > 0.12) and up to each half-width: Σ ((1 + ω_i·ω_o)²/4) S_d ΔA
+/// as printed, and with 1/cos θ_i.
+pub(in crate::effects::diffraction) fn disc_furnace(
+    extents: &[f64],
+) -> Result<Vec<(f64, f64, f64)>, DiffractionError> {
+    const SIZE: usize = 257;
+    let surface = disc()?;
+    let field = Transform::new(&surface, 1)?.far_field(&surface, GREEN_NM, NORMAL);
+    let (texels, [x, _]) = at_wavelength(&field, [SIZE, SIZE], 1.0);
+    let centres = x.centres();
+    let sums = |extent: f64| {
+        let (mut printed, mut whole) = (0.0, 0.0);
+        for (row, hy) in texels.chunks(SIZE).zip(&centres) {
+            for (power, hx) in row.iter().zip(&centres) {
+                let square = hx * hx + hy * hy;
+                if square <= extent * extent && square > 0.0144 {
+                    let cosine = (1.0 - square).sqrt();
+                    let share = 0.25 * (1.0 + cosine) * (1.0 + cosine) * power;
+                    printed += share;
+                    whole += share / cosine;
+                }
+            }
+        }
+        (extent, printed, whole)
+    };
+    Ok(extents.iter().map(|e| sums(*e)).collect())
+}
+
+pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
+    let widths: Vec<f64> = (1..=49).map(|i| 0.02 * f64::from(i)).collect();
+    let edge = |u: f64| 1.0 / (1.0 - u * u).sqrt();
+    let points = |f: &dyn Fn(f64) -> f64| widths.iter().map(|u| (*u, f(*u) - 1.0)).collect();
+    let shown: Vec<f64> = widths.iter().copied().filter(|u| *u >= 0.2).collect();
+    let of_disc = disc_furnace(&shown)?;
+    let of_disc = of_disc.iter().map(|(u, printed, whole)| (*u, whole / printed - 1.0)).collect();
+    let rows = disc_furnace(&[0.25, 0.5, 0.75, 0.9, 0.98])?
+        .into_iter()
+        .map(|(u, printed, whole)| {
+            let missing = number(whole / printed - 1.0);
+            vec![number(u), number(edge(u) - 1.0), number(mean_over_disc(u) - 1.0), missing]
+        })
+        .collect();
+    Ok(Exhibit {
+        title: "The solid angle of a texel".into(),
+        text: vec![
+            "With ω_o = n, h is ω_i projected onto the surface, and a texel ΔA of the table stands \
+             for the solid angle ΔA/cos θ_i of light. toisoul2017 eq. 6, 7 and 9–11 sum over texels \
+             without it."
+                .into(),
+        ],
+        plots: vec![ExhibitPlot {
+            stem: "diffraction-jacobian",
+            title: "Light that is left out without 1/cos θ_i".into(),
+            caption: "Over the half-width of the table: in its outermost texels, for a table of one \
+                      value, and for a simulated disc under a white sky away from the mirror."
+                .into(),
+            x: ExhibitAxis { label: "half-width in h", unit: "1", log: false },
+            y: ExhibitAxis { label: "relative to what is left", unit: "1", log: true },
+            series: vec![
+                series("at the edge", points(&edge), Stroke::Dashed),
+                series("even table", points(&mean_over_disc), Stroke::Line),
+                series("disc", of_disc, Stroke::Strong),
+            ],
+        }],
+        tables: vec![table(
+            "Light that is left out, relative to what is left",
+            &[("half-width", "1"), ("at the edge", "1"), ("even table", "1"), ("disc", "1")],
+            rows,
+        )],
+    })
+}

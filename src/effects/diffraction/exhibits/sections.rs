@@ -1,0 +1,106 @@
+use super::grating::{disc, level};
+use super::{GREEN_NM, H, number, series, table};
+use crate::effects::diffraction::illuminant::Illuminant;
+use crate::effects::diffraction::preparation::{PreparedSurface, prepared};
+use crate::effects::diffraction::surfaces::{
+    Grating, HolographicPaper, Patch, Profile, grating, holographic_paper,
+};
+use crate::effects::diffraction::table::{
+    Channels, DiffractionTable, NORMAL, TableShape, of_surface,
+};
+use crate::effects::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
+use crate::measured::spectra::Spectra;
+use crate::table::Grid;
+
+const SIZE: usize = 257;
+
+/// Values of a channel along h_y = 0 that a logarithm shows: above a millionth of the largest.
+fn section(grid: &Grid, channel: &str) -> Vec<(f64, f64)> {
+    let middle = grid.y.count / 2;
+    let values = (0..grid.x.count).filter_map(|ix| Some((ix, f64::from(grid.at(channel, ix, middle)?))));
+    let values: Vec<(usize, f64)> = values.collect();
+    let largest = values.iter().fold(0.0_f64, |most, (_, v)| most.max(*v));
+    let shown = values.into_iter().filter(|(_, v)| *v > 1e-6 * largest);
+    shown.map(|(ix, v)| (grid.x.centre(ix), v)).collect()
+}
+
+fn shape(channels: Channels, wavelengths_nm: Vec<f64>) -> TableShape {
+    TableShape { size: [SIZE, SIZE], extent: 1.0, wavelengths_nm, channels }
+}
+
+pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
+    let spectra = Spectra::built_in().map_err(|e| ExhibitError(e.to_string()))?;
+    let patch = Patch { samples: 256, side_um: 51.2, line: false };
+    let paper = HolographicPaper {
+        cell_um: 8.0,
+        pitch_um: [1.0, 2.0],
+        amplitude_nm: 60.0,
+        spread: 0.2,
+        seed: 1,
+    };
+    let blazed = Grating { period_um: 2.0, angle: 0.0, profile: Profile::Blazed { height_nm: 200.0 } };
+    let surfaces: [(&str, PreparedSurface); 3] = [
+        ("disc", disc()?),
+        ("blazed", prepared(&grating(blazed, patch), level())?),
+        ("holographic paper", prepared(&holographic_paper(paper, patch), level())?),
+    ];
+    let wavelengths: Vec<f64> = (0..=20).map(|i| 380.0 + 20.0 * f64::from(i)).collect();
+    let rgb = shape(Channels::Rgb(Illuminant::D65), wavelengths);
+    let coloured = of_surface(&surfaces[0].1, &rgb, 1, NORMAL, &spectra)?;
+    let mut curves = Vec::new();
+    let mut rows = Vec::new();
+    for (name, surface) in &surfaces {
+        let green = shape(Channels::Spectral, vec![GREEN_NM]);
+        let table = of_surface(surface, &green, 2, NORMAL, &spectra)?;
+        curves.push(series(name, section(&table.grid, "S_550"), Stroke::Line));
+        rows.push(row(name, &table));
+    }
+    let y = ExhibitAxis { label: "S_d", unit: "sr⁻¹", log: true };
+    let of_disc = ["R", "G", "B"].map(|c| series(c, section(&coloured.grid, c), Stroke::Line));
+    Ok(Exhibit {
+        title: "Sections of tables".into(),
+        text: vec![
+            "Tables of simulated surfaces, 51.2 µm in 256² samples under a Hann window, 257² texels \
+             over ±1. The disc's tracks lie along y, so its orders lie along x and its pits spread \
+             them along y; the blazed grating sends most of the light to one side, h = −w slope."
+                .into(),
+        ],
+        plots: vec![
+            ExhibitPlot {
+                stem: "diffraction-section-disc",
+                title: "Compact disc, h_y = 0".into(),
+                caption: "Channels of linear sRGB under D65; where one is negative, outside the \
+                          gamut, it is not drawn."
+                    .into(),
+                x: H,
+                y,
+                series: of_disc.into(),
+            },
+            ExhibitPlot {
+                stem: "diffraction-section-surfaces",
+                title: "Three surfaces at 550 nm, h_y = 0".into(),
+                caption: "One wavelength: orders where m λ/d puts them.".into(),
+                x: H,
+                y,
+                series: curves,
+            },
+        ],
+        tables: vec![table(
+            "Shares of the reflected power at 550 nm",
+            &[
+                ("surface", ""),
+                ("sum over all frequencies", "1"),
+                ("inside the table", "1"),
+                ("beyond |h| = 1", "1"),
+            ],
+            rows,
+        )],
+    })
+}
+
+fn row(name: &str, table: &DiffractionTable) -> Vec<crate::effects::exhibit::ExhibitCell> {
+    let mut row = vec![crate::effects::exhibit::ExhibitCell::Text(name.into())];
+    let shares = [&table.total, &table.inside, &table.evanescent];
+    row.extend(shares.map(|share| number(share.first().copied().unwrap_or(f64::NAN))));
+    row
+}

@@ -1,0 +1,135 @@
+use super::grating::line;
+use super::{GREEN_NM, number, series, table};
+use crate::effects::diffraction::DiffractionError;
+use crate::effects::diffraction::illuminant::Illuminant;
+use crate::effects::diffraction::surfaces::Profile;
+use crate::effects::diffraction::table::{
+    Channels, NORMAL, PatternPlacing, TableShape, of_pattern, of_surface,
+};
+use crate::effects::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
+use crate::measured::pattern::Pattern;
+use crate::measured::spectra::Spectra;
+use crate::numeric::statistics::relative_l2;
+use crate::table::Grid;
+
+/// Period of the grating: that of a disc.
+const PERIOD_UM: f64 = 1.6;
+/// Texels of a section.
+const SIZE: usize = 201;
+/// |h| up to which the pattern at one wavelength is known: 1 at the shortest wavelength.
+const KNOWN: f64 = 1.5;
+/// Below, the mirror direction, which no rule changes in place: half of the first order in the violet.
+const MIRROR: f64 = 0.12;
+
+/// Relative L2 errors in R, G and B, away from the mirror direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::effects::diffraction) struct Rules {
+    /// S_λ = (λ₀/λ)² S_λ₀(h λ₀/λ), as printed.
+    pub(in crate::effects::diffraction) square: [f64; 3],
+    /// (λ₀/λ)⁴.
+    pub(in crate::effects::diffraction) fourth: [f64; 3],
+}
+
+/// What a table made from one wavelength, 550 nm, errs by for a rectangular grating of `depth_nm`.
+pub(in crate::effects::diffraction) fn rule_errors(
+    depth_nm: f64,
+    spectra: &Spectra,
+) -> Result<Rules, DiffractionError> {
+    let surface = line(PERIOD_UM, Profile::Rectangle { depth_nm, duty: 0.5 })?;
+    let wavelengths_nm: Vec<f64> = (0..=40).map(|i| 380.0 + 10.0 * f64::from(i)).collect();
+    let shape = TableShape {
+        size: [SIZE, 1],
+        extent: 1.0,
+        wavelengths_nm,
+        channels: Channels::Rgb(Illuminant::D65),
+    };
+    let exact = of_surface(&surface, &shape, 1, NORMAL, spectra)?.grid;
+    let known = TableShape {
+        size: [4001, 1],
+        extent: KNOWN,
+        wavelengths_nm: vec![GREEN_NM],
+        channels: Channels::Spectral,
+    };
+    let known = of_surface(&surface, &known, 1, NORMAL, spectra)?;
+    let inside = known.inside.first().copied().unwrap_or(f64::NAN);
+    let intensity: Vec<f64> =
+        known.grid.channels.iter().flat_map(|c| c.values.iter().map(|v| f64::from(*v))).collect();
+    let pattern = Pattern { width: 4001, height: 1, intensity, origin: surface.origin.clone() };
+    let errors = |exponent: f64| -> Result<[f64; 3], DiffractionError> {
+        let placing = PatternPlacing {
+            wavelength_nm: GREEN_NM,
+            half_extent: KNOWN,
+            centre: [0.5 * 4001.0, 0.5],
+            exponent,
+        };
+        let made = of_pattern(&pattern, placing, &shape, spectra)?.grid;
+        Ok(["R", "G", "B"].map(|channel| {
+            // A pattern counts its total as all power.
+            let (made, exact) = (away(&made, channel), away(&exact, channel));
+            relative_l2(made.map(|v| inside * v).zip(exact))
+        }))
+    };
+    Ok(Rules { square: errors(2.0)?, fourth: errors(4.0)? })
+}
+
+/// Values of a channel away from the mirror direction.
+fn away<'a>(grid: &'a Grid, channel: &str) -> impl Iterator<Item = f64> + 'a {
+    let values = grid.channel(channel).map_or(&[][..], |c| c.values.as_slice());
+    let texels = values.iter().enumerate().filter(|(i, _)| grid.x.centre(*i).abs() > MIRROR);
+    texels.map(|(_, v)| f64::from(*v))
+}
+
+pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
+    let spectra = Spectra::built_in().map_err(|e| ExhibitError(e.to_string()))?;
+    let depths: Vec<f64> = (1..=17).map(|i| 10.0 * f64::from(i)).collect();
+    let rules: Vec<Rules> =
+        depths.iter().map(|d| rule_errors(*d, &spectra)).collect::<Result<_, _>>()?;
+    let mut curves = Vec::new();
+    for (name, channel) in [("R", 0), ("G", 1), ("B", 2)] {
+        let over = |of: fn(&Rules) -> [f64; 3]| -> Vec<(f64, f64)> {
+            depths.iter().zip(&rules).map(|(d, r)| (*d, of(r)[channel])).collect()
+        };
+        curves.push(series(&format!("λ⁻², {name}"), over(|r| r.square), Stroke::Line));
+        curves.push(series(&format!("λ⁻⁴, {name}"), over(|r| r.fourth), Stroke::Dashed));
+    }
+    let rows = [20.0, 60.0, 120.0, 150.0].iter().filter_map(|depth| {
+        let rules = rules.get(depths.iter().position(|d| d == depth)?)?;
+        let mut row = vec![number(*depth)];
+        row.extend(rules.square.into_iter().chain(rules.fourth).map(number));
+        Some(row)
+    });
+    let rows = rows.collect();
+    Ok(Exhibit {
+        title: "A table from one wavelength".into(),
+        text: vec![
+            "A grating of 1.6 µm with a rectangular profile, recorded without error at 550 nm and \
+             taken to other wavelengths by toisoul2017 eq. 2 (λ⁻²) or by the first order of a \
+             shallow relief (λ⁻⁴), against the table made at every wavelength. Relative L2 error of \
+             a section for |h| > 0.12, linear sRGB under D65."
+                .into(),
+        ],
+        plots: vec![ExhibitPlot {
+            stem: "diffraction-one-wavelength",
+            title: "Error of tables made from 550 nm".into(),
+            caption: "Neither power holds for every depth: λ⁻⁴ is exact for shallow reliefs, and \
+                      a quarter of the wavelength, 137 nm, is where λ⁻² is nearest in the green."
+                .into(),
+            x: ExhibitAxis { label: "depth", unit: "nm", log: false },
+            y: ExhibitAxis { label: "relative L2 error", unit: "1", log: true },
+            series: curves,
+        }],
+        tables: vec![table(
+            "Relative L2 error of the orders in R, G and B",
+            &[
+                ("depth", "nm"),
+                ("λ⁻², R", "1"),
+                ("λ⁻², G", "1"),
+                ("λ⁻², B", "1"),
+                ("λ⁻⁴, R", "1"),
+                ("λ⁻⁴, G", "1"),
+                ("λ⁻⁴, B", "1"),
+            ],
+            rows,
+        )],
+    })
+}
