@@ -14,13 +14,8 @@ const RUNS: usize = 9;
 
 /// As in benches/peers/svd_numpy.py.
 fn table() -> Grid {
-    let axis = |name: &str| Axis {
-        name: name.into(),
-        unit: "1".into(),
-        from: -1.0,
-        to: 1.0,
-        count: SIDE,
-    };
+    let axis =
+        |name: &str| Axis { name: name.into(), unit: "1".into(), from: -1.0, to: 1.0, count: SIDE };
     let mut state = 1u32;
     let mut channels = Vec::new();
     for (k, name) in ["R", "G", "B"].into_iter().enumerate() {

@@ -22,7 +22,9 @@ pub(super) fn load_environment(path: &Path) -> anyhow::Result<Environment> {
     let bytes = store::read(path)?;
     let (width, height, radiance) = decode(&shown, &bytes)?;
     if width != 2 * height || height == 0 {
-        bail!("{shown}: {width} × {height} texels; a latitude–longitude map is twice as wide as high");
+        bail!(
+            "{shown}: {width} × {height} texels; a latitude–longitude map is twice as wide as high"
+        );
     }
     let bad = |texel: &[f32; 3]| texel.iter().any(|v| !(v.is_finite() && *v >= 0.0));
     if let Some(at) = radiance.iter().position(bad) {
@@ -40,7 +42,8 @@ fn decode_hdr(shown: &str, bytes: &[u8]) -> anyhow::Result<Texels> {
     let mut limits = Limits::default();
     limits.max_alloc = Some(MAX_PIXEL_BYTES);
     reader.limits(limits);
-    let DynamicImage::ImageRgb32F(picture) = reader.decode().with_context(|| shown.to_owned())? else {
+    let DynamicImage::ImageRgb32F(picture) = reader.decode().with_context(|| shown.to_owned())?
+    else {
         bail!("{shown}: not a Radiance file of RGB");
     };
     let (width, height) = (picture.width() as usize, picture.height() as usize);

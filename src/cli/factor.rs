@@ -172,10 +172,13 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
             kernels.push((method, rank, kernel));
         }
     }
+    let lines = along_lines(arguments, &table, directions.as_ref())?;
     std::fs::create_dir_all(&arguments.output)
         .with_context(|| arguments.output.display().to_string())?;
     write(&arguments.output, &work, &kernels, *ranks.end())?;
-    let lines = write_directional(arguments, &table, directions.as_ref())?;
+    if let Some(lines) = &lines {
+        write_lines(&lines.all, &arguments.output)?;
+    }
     let factored = Factored {
         table: &straight,
         spectra: decomposition.spectra().collect(),
@@ -285,7 +288,10 @@ impl Work<'_> {
             None => vec![None; errors.len()],
         };
         let channels = self.table.channels.iter().zip(errors).zip(seen);
-        let row = |((channel, relative_error), after_convolution): ((&crate::table::Channel, f64), Option<f64>)| Row {
+        let row = |((channel, relative_error), after_convolution): (
+            (&crate::table::Channel, f64),
+            Option<f64>,
+        )| Row {
             method: method.name(),
             rank,
             channel: channel.name.clone(),
@@ -329,13 +335,12 @@ fn write(
     Ok(())
 }
 
-/// Kernels along the main directions, with what they lose and how far the drawn lines are from the
-/// table.
-fn write_directional(
+/// Kernels along the main directions, if they were asked for.
+fn along_lines(
     arguments: &Arguments,
     table: &Grid,
     found: Option<&MainDirections>,
-) -> anyhow::Result<Option<Lines>> {
+) -> Result<Option<Lines>, LowRankError> {
     let (Some(count), Some(found)) = (arguments.directional, found) else { return Ok(None) };
     let half = |axis: &crate::table::Axis| axis.from.abs().min(axis.to.abs());
     let [x, y] = found.angles_rad.map(|angle| [angle.cos(), angle.sin()]);
@@ -346,7 +351,6 @@ fn write_directional(
             (vec![x, y], arguments.half_width.unwrap_or(own))
         }
     };
-    let lines = directional(table, &directions, half_width)?;
-    write_lines(&lines, &arguments.output)?;
-    Ok(Some(Lines { directions, half_width, lost: lines.lost }))
+    let all = directional(table, &directions, half_width)?;
+    Ok(Some(Lines { all, half_width }))
 }

@@ -13,11 +13,7 @@ const CLIPPED: f64 = 0.005;
 /// in stops, or one that shows all but the brightest 0.5 % of the texels. Returns the exposure.
 pub(super) fn picture(table: &Grid, path: &Path, exposure: Option<f64>) -> anyhow::Result<f64> {
     let colours: Vec<_> = ["R", "G", "B"].iter().filter_map(|name| table.channel(name)).collect();
-    let shown = if colours.len() == 3 {
-        colours
-    } else {
-        table.channels.iter().take(1).collect()
-    };
+    let shown = if colours.len() == 3 { colours } else { table.channels.iter().take(1).collect() };
     let exposure = exposure.unwrap_or_else(|| {
         let mut values: Vec<f32> = shown.iter().flat_map(|c| c.values.iter().copied()).collect();
         values.sort_by(f32::total_cmp);
@@ -26,10 +22,8 @@ pub(super) fn picture(table: &Grid, path: &Path, exposure: Option<f64>) -> anyho
         let white = if bright > 0.0 { bright } else { values.last().copied().unwrap_or(1.0) };
         if white > 0.0 { -f64::from(white).log2() } else { 0.0 }
     });
-    let channel = |c: &&crate::table::Channel| Channel {
-        name: c.name.clone(),
-        values: c.values.clone(),
-    };
+    let channel =
+        |c: &&crate::table::Channel| Channel { name: c.name.clone(), values: c.values.clone() };
     let image = Image {
         width: table.x.count,
         height: table.y.count,

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::output::{significant, table};
-use crate::fit::low_rank::{MainDirections, Spectrum};
+use crate::fit::low_rank::{Directional, MainDirections, Spectrum};
 use crate::table::{Grid, shortest_number};
 
 /// One method at one rank in one channel.
@@ -24,9 +24,8 @@ pub(super) struct Row {
 
 /// Kernels along lines, in short.
 pub(super) struct Lines {
-    pub(super) directions: Vec<[f64; 2]>,
+    pub(super) all: Directional,
     pub(super) half_width: f64,
-    pub(super) lost: Vec<(String, f64)>,
 }
 
 /// Everything there is to say.
@@ -159,9 +158,9 @@ impl Factored<'_> {
         });
         let lines = self.lines.as_ref().map(|lines| {
             let lost: serde_json::Map<String, Value> =
-                lines.lost.iter().map(|(name, part)| (name.clone(), json!(part))).collect();
+                lines.all.lost.iter().map(|(name, part)| (name.clone(), json!(part))).collect();
             json!({
-                "directions": lines.directions,
+                "directions": lines.directions(),
                 "half_width": lines.half_width.is_finite().then_some(lines.half_width),
                 "lost": lost,
             })
@@ -178,13 +177,18 @@ impl Factored<'_> {
 }
 
 impl Lines {
+    fn directions(&self) -> Vec<[f64; 2]> {
+        self.all.kernels.iter().map(|kernel| kernel.direction).collect()
+    }
+
     fn text(&self) -> String {
         let angles: Vec<String> = self
-            .directions
+            .directions()
             .iter()
             .map(|[x, y]| format!("{}°", significant(y.atan2(*x).to_degrees(), 5)))
             .collect();
         let lost: Vec<String> = self
+            .all
             .lost
             .iter()
             .map(|(name, part)| format!("{name} {} %", significant(100.0 * part, 3)))

@@ -7,13 +7,8 @@ use striae::table::{Axis, Channel, Grid};
 
 /// A square table over [−half, half]² with channels R, G, B; `value` gives them at h.
 pub(crate) fn table(n: usize, half: f64, value: impl Fn(f64, f64) -> [f64; 3]) -> Grid {
-    let axis = |name: &str| Axis {
-        name: name.into(),
-        unit: "1".into(),
-        from: -half,
-        to: half,
-        count: n,
-    };
+    let axis =
+        |name: &str| Axis { name: name.into(), unit: "1".into(), from: -half, to: half, count: n };
     let (x, y) = (axis("h_x"), axis("h_y"));
     let (xs, ys) = (x.centres(), y.centres());
     let texels: Vec<[f64; 3]> =
@@ -103,8 +98,7 @@ pub(crate) fn disc(n: usize, angle: f64) -> Grid {
                 .map(|k| {
                     let k = f64::from(k);
                     let order = gaussian(along - k * spacing, 1.5 * texel);
-                    let pits = gaussian(along - k * spacing, 3.0 * texel)
-                        * 0.3
+                    let pits = gaussian(along - k * spacing, 3.0 * texel) * 0.3
                         / (1.0 + (across / (0.08 + 0.1 * k.abs())).powi(2));
                     (order * gaussian(across, 1.5 * texel) + pits) / (1.0 + k * k)
                 })
@@ -156,7 +150,8 @@ fn environment(height: usize, origin: &str, radiance: impl Fn([f64; 3]) -> f64) 
     let texel = |i: usize, j: usize| {
         let phi = std::f64::consts::TAU * (i as f64 + 0.5) / width as f64;
         let theta = std::f64::consts::PI * (j as f64 + 0.5) / height as f64;
-        let value = radiance([theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]) as f32;
+        let value =
+            radiance([theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]) as f32;
         [value, 0.9 * value, 0.8 * value]
     };
     let radiance =
@@ -185,7 +180,8 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 pub(crate) fn windows(seed: u64) -> Environment {
     let centres = directions(12, seed);
     environment(128, &format!("windows {seed}"), |d| {
-        let window = |c: &[f64; 3]| 1.0 / (1.0 + ((dot(*c, d).clamp(-1.0, 1.0).acos() - 0.12) / 0.02).exp());
+        let window =
+            |c: &[f64; 3]| 1.0 / (1.0 + ((dot(*c, d).clamp(-1.0, 1.0).acos() - 0.12) / 0.02).exp());
         0.02 + centres.iter().map(window).sum::<f64>()
     })
 }

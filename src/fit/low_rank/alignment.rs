@@ -72,10 +72,8 @@ impl Alignment {
     pub fn to_toml(&self) -> Result<String, LowRankError> {
         let directions_deg = Some(self.angles_rad().map(f64::to_degrees));
         let record = Record { matrix: self.matrix, directions_deg };
-        toml::to_string(&record).map_err(|e| LowRankError::Mismatch {
-            origin: "alignment".into(),
-            what: e.to_string(),
-        })
+        toml::to_string(&record)
+            .map_err(|e| LowRankError::Mismatch { origin: "alignment".into(), what: e.to_string() })
     }
 
     /// From the text of a file, which `origin` names in messages.

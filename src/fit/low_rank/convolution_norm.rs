@@ -149,7 +149,8 @@ impl ConvolutionNorm {
 
     /// R at a lag in texels, relative to lag 0; 0 beyond the table.
     pub fn correlation(&self, dx: i64, dy: i64) -> f64 {
-        let index = |d: i64, n: usize| usize::try_from(d + n as i64 - 1).ok().filter(|i| *i < 2 * n - 1);
+        let index =
+            |d: i64, n: usize| usize::try_from(d + n as i64 - 1).ok().filter(|i| *i < 2 * n - 1);
         match (index(dy, self.ny), index(dx, self.nx)) {
             (Some(iy), Some(ix)) => self.lags[(iy, ix)],
             _ => 0.0,
@@ -189,7 +190,11 @@ impl ConvolutionNorm {
     /// # Errors
     /// [`LowRankError::Mismatch`] if the table has another size than the norm or other channels
     /// than the factors.
-    pub fn relative_errors(&self, table: &Grid, factors: &LowRank) -> Result<Vec<f64>, LowRankError> {
+    pub fn relative_errors(
+        &self,
+        table: &Grid,
+        factors: &LowRank,
+    ) -> Result<Vec<f64>, LowRankError> {
         self.require(table)?;
         let pairs = factors.matched(table)?;
         Ok(pairs
@@ -197,7 +202,11 @@ impl ConvolutionNorm {
             .map(|(channel, terms)| {
                 let s = of_channel(table, channel);
                 let whole = self.squared(&s);
-                if whole == 0.0 { 0.0 } else { (self.squared(&difference(&s, &terms)) / whole).sqrt() }
+                if whole == 0.0 {
+                    0.0
+                } else {
+                    (self.squared(&difference(&s, &terms)) / whole).sqrt()
+                }
             })
             .collect())
     }

@@ -126,10 +126,8 @@ fn fit(
         let mut before = best.0;
         let turned = norm.lags().transpose().to_owned();
         while sweeps < options.stopping.sweeps {
-            terms.vertical =
-                side(norm.lags(), seen.as_ref(), &terms.horizontal, &terms.vertical);
-            terms.horizontal =
-                side(&turned, seen.transpose(), &terms.vertical, &terms.horizontal);
+            terms.vertical = side(norm.lags(), seen.as_ref(), &terms.horizontal, &terms.vertical);
+            terms.horizontal = side(&turned, seen.transpose(), &terms.vertical, &terms.horizontal);
             sweeps += 1;
             let after = cost(&terms);
             if after < best.0 {
@@ -165,16 +163,16 @@ fn fit(
 fn side(lags: &Mat<f64>, seen: MatRef<'_, f64>, other: &Mat<f64>, now: &Mat<f64>) -> Mat<f64> {
     let (n, rank) = now.shape();
     let blocks = toeplitz_blocks(lags, other, n);
-    let block = |d: usize, m: usize, k: usize| {
-        blocks.get((m * rank + k) * n + d).copied().unwrap_or(0.0)
-    };
+    let block =
+        |d: usize, m: usize, k: usize| blocks.get((m * rank + k) * n + d).copied().unwrap_or(0.0);
     // Lower triangle: row i ≥ i', and for i = i' both orders agree.
     let system = Mat::from_fn(n * rank, n * rank, |a, b| {
         let (i, m, j, k) = (a / rank, a % rank, b / rank, b % rank);
         if i >= j { block(i - j, m, k) } else { 0.0 }
     });
     let projected = times(seen, other.as_ref());
-    let stacked = |matrix: &Mat<f64>| Mat::from_fn(n * rank, 1, |a, _| matrix[(a / rank, a % rank)]);
+    let stacked =
+        |matrix: &Mat<f64>| Mat::from_fn(n * rank, 1, |a, _| matrix[(a / rank, a % rank)]);
     let solved = solve_towards(system, stacked(&projected), stacked(now).as_ref(), ANCHOR);
     Mat::from_fn(n, rank, |i, m| solved[(i * rank + m, 0)])
 }
@@ -182,7 +180,8 @@ fn side(lags: &Mat<f64>, seen: MatRef<'_, f64>, other: &Mat<f64>, now: &Mat<f64>
 /// T_mk(d) for d = 0 … n − 1, at (m · rank + k) · n + d.
 fn toeplitz_blocks(lags: &Mat<f64>, other: &Mat<f64>, n: usize) -> Vec<f64> {
     let (length, rank) = other.shape();
-    let columns: Vec<Vec<f64>> = (0..rank).map(|m| other.col(m).iter().copied().collect()).collect();
+    let columns: Vec<Vec<f64>> =
+        (0..rank).map(|m| other.col(m).iter().copied().collect()).collect();
     // Rows of lags from 0 on, contiguous.
     let rows: Vec<Vec<f64>> =
         (0..n).map(|d| lags.row(n - 1 + d).iter().copied().collect()).collect();
@@ -198,7 +197,8 @@ fn toeplitz_blocks(lags: &Mat<f64>, other: &Mat<f64>, n: usize) -> Vec<f64> {
                     *slot += x * y;
                 }
             }
-            let sum = |row: &Vec<f64>| row.iter().zip(&correlation).map(|(r, c)| r * c).sum::<f64>();
+            let sum =
+                |row: &Vec<f64>| row.iter().zip(&correlation).map(|(r, c)| r * c).sum::<f64>();
             blocks.extend(rows.iter().map(sum));
         }
     }
@@ -309,7 +309,8 @@ fn polish(
 ) -> (Terms, u64) {
     let both = |t: &Terms| -> DVector<f64> {
         let columns = t.vertical.col_iter().chain(t.horizontal.col_iter());
-        let values: Vec<f64> = columns.flat_map(|c| c.iter().copied().collect::<Vec<_>>()).collect();
+        let values: Vec<f64> =
+            columns.flat_map(|c| c.iter().copied().collect::<Vec<_>>()).collect();
         DVector::from_vec(values)
     };
     let z = both(start);

@@ -42,7 +42,11 @@ pub fn directional(
     for [x, y] in directions {
         let length = x.hypot(*y);
         if !(length.is_finite() && length > 0.0) {
-            return Err(setting("direction", "a finite vector that is not 0", format!("({x}, {y})")));
+            return Err(setting(
+                "direction",
+                "a finite vector that is not 0",
+                format!("({x}, {y})"),
+            ));
         }
         units.push([x / length, y / length]);
     }
@@ -100,13 +104,7 @@ fn axis_along(table: &Grid, d: [f64; 2]) -> Axis {
     let step = spacing(&table.x).min(spacing(&table.y));
     let half = (reach / step).ceil() as usize + 1;
     let edge = half as f64 * step;
-    Axis {
-        name: "s".into(),
-        unit: table.x.unit.clone(),
-        from: -edge,
-        to: edge,
-        count: 2 * half,
-    }
+    Axis { name: "s".into(), unit: table.x.unit.clone(), from: -edge, to: edge, count: 2 * half }
 }
 
 fn deposit(axis: &Axis, profile: &mut [f64], along: f64, amount: f64) {
@@ -127,8 +125,10 @@ fn deposit(axis: &Axis, profile: &mut [f64], along: f64, amount: f64) {
 /// As [`Grid::check`].
 pub fn drawn(kernels: &[DirectionalKernel], x: &Axis, y: &Axis) -> Result<Grid, LowRankError> {
     const PIECES: usize = 8;
-    let names: Vec<&String> =
-        kernels.first().map(|k| k.channels.iter().map(|(name, _)| name).collect()).unwrap_or_default();
+    let names: Vec<&String> = kernels
+        .first()
+        .map(|k| k.channels.iter().map(|(name, _)| name).collect())
+        .unwrap_or_default();
     let area = spacing(x) * spacing(y);
     let mut channels = Vec::with_capacity(names.len());
     for (index, name) in names.into_iter().enumerate() {

@@ -38,7 +38,9 @@ pub enum LowRankError {
         origin: String,
     },
     /// A negative value where factors may not be negative.
-    #[error("{origin}: channel {channel:?}, texel ({ix}, {iy}): {value} is negative, and factors that are not negative cannot give it")]
+    #[error(
+        "{origin}: channel {channel:?}, texel ({ix}, {iy}): {value} is negative, and factors that are not negative cannot give it"
+    )]
     Negative {
         /// The table.
         origin: String,

@@ -43,17 +43,24 @@ impl LowRank {
         let origin = path.display().to_string();
         let text = store::read(&path)?;
         let alignment = Alignment::from_toml(&origin, store::text(&origin, &text)?)?;
-        let fault = |what: String| LowRankError::Mismatch { origin: folder.display().to_string(), what };
+        let fault =
+            |what: String| LowRankError::Mismatch { origin: folder.display().to_string(), what };
         if vertical.y.count != horizontal.y.count {
             let (v, h) = (vertical.y.count, horizontal.y.count);
             return Err(fault(format!("{v} vertical terms and {h} horizontal ones")));
         }
         if vertical.channels.len() != horizontal.channels.len() {
             let (v, h) = (vertical.channels.len(), horizontal.channels.len());
-            return Err(fault(format!("{v} channels of vertical factors and {h} of horizontal ones")));
+            return Err(fault(format!(
+                "{v} channels of vertical factors and {h} of horizontal ones"
+            )));
         }
         let lists = |channel: &Channel, length: usize| -> Vec<Vec<f64>> {
-            channel.values.chunks(length).map(|c| c.iter().map(|v| f64::from(*v)).collect()).collect()
+            channel
+                .values
+                .chunks(length)
+                .map(|c| c.iter().map(|v| f64::from(*v)).collect())
+                .collect()
         };
         let mut channels = Vec::with_capacity(vertical.channels.len());
         for channel in &vertical.channels {

@@ -62,7 +62,9 @@ fn transposed(data: &[Complex<f64>], width: usize, height: usize) -> Vec<Complex
         for left in (0..width).step_by(TILE) {
             for j in top..(top + TILE).min(height) {
                 for i in left..(left + TILE).min(width) {
-                    if let (Some(to), Some(from)) = (out.get_mut(i * height + j), data.get(j * width + i)) {
+                    if let (Some(to), Some(from)) =
+                        (out.get_mut(i * height + j), data.get(j * width + i))
+                    {
                         *to = *from;
                     }
                 }

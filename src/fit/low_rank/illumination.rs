@@ -43,9 +43,13 @@ pub(super) struct Sampler<'a> {
 impl<'a> Sampler<'a> {
     /// # Errors
     /// [`LowRankError::Environment`] if texels are missing, negative or not finite.
-    pub(super) fn new(environment: &'a Environment, radiance: Radiance) -> Result<Self, LowRankError> {
+    pub(super) fn new(
+        environment: &'a Environment,
+        radiance: Radiance,
+    ) -> Result<Self, LowRankError> {
         let (width, height) = (environment.width, environment.height);
-        let fault = |what: String| LowRankError::Environment { origin: environment.origin.clone(), what };
+        let fault =
+            |what: String| LowRankError::Environment { origin: environment.origin.clone(), what };
         let expected = width.saturating_mul(height);
         if expected == 0 || environment.radiance.len() != expected {
             let got = environment.radiance.len();
@@ -99,12 +103,8 @@ pub(super) fn frame(seed: u64, index: usize) -> Frame {
     random.set_stream(index as u64);
     let [a, b, c]: [f64; 3] = [random.random(), random.random(), random.random()];
     let (p, q) = ((1.0 - a).sqrt(), a.sqrt());
-    let [x, y, z, w] = [
-        p * (TAU * b).sin(),
-        p * (TAU * b).cos(),
-        q * (TAU * c).sin(),
-        q * (TAU * c).cos(),
-    ];
+    let [x, y, z, w] =
+        [p * (TAU * b).sin(), p * (TAU * b).cos(), q * (TAU * c).sin(), q * (TAU * c).cos()];
     [
         [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
         [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],

@@ -4,10 +4,10 @@
 //! All of it runs on one thread, so that a sum never depends on how many there are; channels run
 //! beside one another.
 
+use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::matmul::matmul;
 use faer::linalg::{cholesky::llt, evd, svd};
-use faer::diag::Diag;
 use faer::{Accum, Mat, MatRef, Par};
 
 use super::LowRankError;
@@ -16,7 +16,8 @@ use crate::table::{Channel, Grid};
 /// One channel of a table, ny × nx.
 pub(super) fn of_channel(table: &Grid, channel: &Channel) -> Mat<f64> {
     let nx = table.x.count;
-    let value = |iy: usize, ix: usize| channel.values.get(iy * nx + ix).map_or(0.0, |v| f64::from(*v));
+    let value =
+        |iy: usize, ix: usize| channel.values.get(iy * nx + ix).map_or(0.0, |v| f64::from(*v));
     Mat::from_fn(table.y.count, nx, value)
 }
 

@@ -91,7 +91,10 @@ impl LowRank {
     }
 
     /// The channels of a table of the same size with the terms of the same name.
-    pub(super) fn matched<'g>(&self, table: &'g Grid) -> Result<Vec<(&'g Channel, Terms)>, LowRankError> {
+    pub(super) fn matched<'g>(
+        &self,
+        table: &'g Grid,
+    ) -> Result<Vec<(&'g Channel, Terms)>, LowRankError> {
         let mismatch = |what: String| LowRankError::Mismatch { origin: table.origin.clone(), what };
         if (table.x.count, table.y.count) != (self.x.count, self.y.count) {
             return Err(mismatch(format!(
@@ -100,9 +103,10 @@ impl LowRank {
             )));
         }
         let named = |channel: &'g Channel| {
-            let factors = self.channels.iter().find(|f| f.name == channel.name).ok_or_else(|| {
-                mismatch(format!("no factors for channel {:?}", channel.name))
-            })?;
+            let factors =
+                self.channels.iter().find(|f| f.name == channel.name).ok_or_else(|| {
+                    mismatch(format!("no factors for channel {:?}", channel.name))
+                })?;
             Ok((channel, Terms::of(factors, self.y.count, self.x.count)))
         };
         table.channels.iter().map(named).collect()

@@ -97,7 +97,10 @@ fn side_step<'a>(
             }
         }
     }
-    let gram = elementwise(&times(other.transpose(), other), &times(colours.transpose(), colours.as_ref()));
+    let gram = elementwise(
+        &times(other.transpose(), other),
+        &times(colours.transpose(), colours.as_ref()),
+    );
     solve_towards(gram, right, now.transpose(), ANCHOR).transpose().to_owned()
 }
 
@@ -119,13 +122,17 @@ fn elementwise(a: &Mat<f64>, b: &Mat<f64>) -> Mat<f64> {
 }
 
 fn coloured(vertical: &Mat<f64>, colours: &Mat<f64>, channel: usize) -> Mat<f64> {
-    Mat::from_fn(vertical.nrows(), vertical.ncols(), |i, m| vertical[(i, m)] * colours[(channel, m)])
+    Mat::from_fn(vertical.nrows(), vertical.ncols(), |i, m| {
+        vertical[(i, m)] * colours[(channel, m)]
+    })
 }
 
 fn cost(tables: &[Mat<f64>], terms: &Terms, colours: &Mat<f64>) -> f64 {
     let one = |(c, table): (usize, &Mat<f64>)| {
         let vertical = coloured(&terms.vertical, colours, c);
-        norm_squared(residual(table.as_ref(), vertical.as_ref(), terms.horizontal.as_ref()).as_ref())
+        norm_squared(
+            residual(table.as_ref(), vertical.as_ref(), terms.horizontal.as_ref()).as_ref(),
+        )
     };
     tables.iter().enumerate().map(one).sum()
 }
@@ -165,11 +172,7 @@ fn given_out(table: &Grid, alignment: Alignment, terms: &Terms, colours: &Mat<f6
         let vertical = coloured(&scaled.vertical, &matrix, c);
         Terms { vertical, horizontal: scaled.horizontal.clone() }.named(&channel.name)
     });
-    let low_rank = LowRank {
-        x: table.x.clone(),
-        y: table.y.clone(),
-        channels: channels.collect(),
-        alignment,
-    };
+    let low_rank =
+        LowRank { x: table.x.clone(), y: table.y.clone(), channels: channels.collect(), alignment };
     Shared { colours: weights, low_rank }
 }

@@ -47,7 +47,9 @@ impl Terms {
         let scaled = |svd: &ThinSvd| {
             let (rows, columns) = svd.right.shape();
             // diag(values) · rightᵀ
-            Mat::from_fn(columns, rows, |i, j| svd.values.get(i).map_or(0.0, |s| s * svd.right[(j, i)]))
+            Mat::from_fn(columns, rows, |i, j| {
+                svd.values.get(i).map_or(0.0, |s| s * svd.right[(j, i)])
+            })
         };
         let core = times(scaled(&v).as_ref(), scaled(&h).transpose());
         let core = thin_svd(core.as_ref(), what)?;
@@ -125,7 +127,8 @@ pub(super) fn orient(terms: &mut Terms, like: Option<&Terms>) {
             let other = other.vertical.col(m);
             let dot: f64 = vertical.iter().zip(other.iter()).map(|(a, b)| a * b).sum();
             let squares = |list: &mut dyn Iterator<Item = f64>| list.map(|x| x * x).sum::<f64>();
-            let lengths = squares(&mut vertical.iter().copied()) * squares(&mut other.iter().copied());
+            let lengths =
+                squares(&mut vertical.iter().copied()) * squares(&mut other.iter().copied());
             (dot.abs() > SAME_TERM * lengths.sqrt()).then_some(dot < 0.0)
         });
         if against.unwrap_or_else(|| points_down(&vertical)) {
@@ -198,8 +201,7 @@ fn choose_basis(svd: &mut ThinSvd, begin: usize, size: usize) {
         svd.left.col_mut(begin + k).copy_from(new_left.col(0));
         svd.right.col_mut(begin + k).copy_from(new_right.col(0));
         let along = times(rows.as_ref(), weights.as_ref());
-        rows = Mat::from_fn(rows.nrows(), size, |i, c| {
-            rows[(i, c)] - along[(i, 0)] * weights[(c, 0)]
-        });
+        rows =
+            Mat::from_fn(rows.nrows(), size, |i, c| rows[(i, c)] - along[(i, 0)] * weights[(c, 0)]);
     }
 }

@@ -81,7 +81,9 @@ impl Weight {
             })
         };
         (0..s.nrows())
-            .map(|i| (0..s.ncols()).map(|j| self.at(i, j) * (s[(i, j)] - fit(i, j)).powi(2)).sum::<f64>())
+            .map(|i| {
+                (0..s.ncols()).map(|j| self.at(i, j) * (s[(i, j)] - fit(i, j)).powi(2)).sum::<f64>()
+            })
             .sum()
     }
 
@@ -89,7 +91,11 @@ impl Weight {
     ///
     /// # Errors
     /// [`LowRankError::Mismatch`] if table, weight and factors have different sizes or channels.
-    pub fn relative_errors(&self, table: &Grid, factors: &LowRank) -> Result<Vec<f64>, LowRankError> {
+    pub fn relative_errors(
+        &self,
+        table: &Grid,
+        factors: &LowRank,
+    ) -> Result<Vec<f64>, LowRankError> {
         self.require(table)?;
         let error = |(channel, terms): (&Channel, Terms)| {
             let s = of_channel(table, channel);
@@ -128,8 +134,10 @@ pub fn weighted(
     let fit = |_: usize, s: &Mat<f64>, mut terms: Terms| {
         let mut before = weight.squared(s, Some(&terms));
         for _ in 0..stopping.sweeps {
-            terms.vertical = side(&terms.horizontal, &terms.vertical, |i, j| (weight.at(i, j), s[(i, j)]));
-            terms.horizontal = side(&terms.vertical, &terms.horizontal, |j, i| (weight.at(i, j), s[(i, j)]));
+            terms.vertical =
+                side(&terms.horizontal, &terms.vertical, |i, j| (weight.at(i, j), s[(i, j)]));
+            terms.horizontal =
+                side(&terms.vertical, &terms.horizontal, |j, i| (weight.at(i, j), s[(i, j)]));
             let after = weight.squared(s, Some(&terms));
             if stopping.is_over(before, after) {
                 break;
