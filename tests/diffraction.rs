@@ -285,12 +285,8 @@ fn patterns_that_hold_nothing_are_refused() {
         centre: [1.0, 1.0],
         exponent: 2.0,
     };
-    let pattern = |intensity: Vec<f64>| Pattern {
-        width: 2,
-        height: 2,
-        intensity,
-        origin: "test".into(),
-    };
+    let pattern =
+        |intensity: Vec<f64>| Pattern { width: 2, height: 2, intensity, origin: "test".into() };
     for bad in [vec![], vec![0.0; 4], vec![1.0, -1.0, 1.0, 1.0], vec![f64::NAN; 4]] {
         assert!(of_pattern(&pattern(bad), placing, &rgb(8, 1.0), &spectra()).is_err());
     }

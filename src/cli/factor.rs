@@ -8,7 +8,6 @@ use clap::{Args, ValueEnum};
 
 use super::Ending;
 use super::context::Context;
-use super::environment::load_environment;
 use super::factor_pictures::{picture, write_lines};
 use super::factor_table::{Factored, Lines, Row};
 use crate::fit::low_rank::{
@@ -16,6 +15,7 @@ use crate::fit::low_rank::{
     MainDirections, NormOptions, SearchOptions, Stopping, Weight, aligned, convolved, directional,
     main_directions, nonnegative, shared, weighted,
 };
+use crate::measured::environment::Environment;
 use crate::table::{Grid, store};
 
 const MORE: &str = "\
@@ -128,11 +128,8 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     if table.channels.iter().all(|channel| channel.values.iter().all(|v| *v == 0.0)) {
         return Err(LowRankError::AllZero { origin: table.origin }.into());
     }
-    let environments = arguments
-        .environment
-        .iter()
-        .map(|path| load_environment(path))
-        .collect::<anyhow::Result<Vec<_>>>()?;
+    let environments =
+        arguments.environment.iter().map(Environment::read).collect::<Result<Vec<_>, _>>()?;
     let (methods, left_out) = methods(arguments, &table)?;
     let search = SearchOptions {
         minimum_angle_rad: arguments.min_angle.to_radians(),

@@ -9,7 +9,7 @@ use super::output::{significant, table};
 use super::{Ending, specs};
 use crate::effects::registry::EFFECTS;
 use crate::gate;
-use crate::render::Scene;
+use crate::render::AnyScene;
 
 /// List what there is: effects, references, forms, simulators, data, scenes, fits and gates
 #[derive(Debug, Args)]
@@ -172,10 +172,8 @@ fn data(context: &Context) -> anyhow::Result<Listing> {
 fn scenes(context: &Context) -> anyhow::Result<Listing> {
     let mut rows = Vec::new();
     for path in context.project()?.scenes()? {
-        let scene = Scene::read(&path)?;
-        let shading = scene.approximations.iter().map(|choice| choice.name.as_str());
-        let shading = shading.collect::<Vec<_>>().join(", ");
-        rows.push(row([&scene.name, &shading, &scene.description]));
+        let scene = AnyScene::read(&path)?;
+        rows.push(row([scene.name(), &scene.approximations().join(", "), scene.description()]));
     }
     Ok(Listing { title: "scenes", header: &["name", "approximations", "description"], rows })
 }

@@ -1,4 +1,4 @@
-//! `render`: the lobe of a scratch under area lights, by the reference and by each approximation.
+//! `render`: a scene, by the reference and by each approximation.
 
 use std::path::{Path, PathBuf};
 
@@ -9,12 +9,14 @@ use indicatif::ProgressBar;
 use super::Ending;
 use super::context::Context;
 use super::progress;
+use super::render_surface;
 use super::render_table::{Summary, text};
 use crate::gpu::{self, Device, NoDevice};
 use crate::render::image::Image;
 use crate::render::scene::{FIGURES, SHEET};
 use crate::render::sheet::comparison;
-use crate::render::{Backend, Event, RenderedScene, Resources, Scene, render_scene};
+use crate::render::surface::{SurfaceScene, render_surface};
+use crate::render::{AnyScene, Backend, Event, RenderedScene, Resources, Scene, render_scene};
 use crate::table::store::atomic_write;
 
 const MORE: &str = "\
@@ -54,29 +56,51 @@ enum BackendName {
 
 /// Renders, writes and prints.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
+    match AnyScene::read(&arguments.scene)? {
+        AnyScene::Lobe(scene) => lobe(*scene, arguments, context),
+        AnyScene::Surface(scene) => surface(&scene, arguments, context),
+    }
+}
+
+fn surface(
+    scene: &SurfaceScene,
+    arguments: &Arguments,
+    context: &Context,
+) -> anyhow::Result<Ending> {
     let project = context.project()?;
-    let mut scene = Scene::read(&arguments.scene)?;
+    let device = device(arguments.backend, context)?;
+    let backend = device.as_ref().map_or(Backend::Lanes, Backend::Device);
+    let folder = folder(arguments, &scene.name)?;
+    let (fits, data) = (project.fits(), project.data());
+    let resources = Resources { fits: &fits, data: &data };
+    let mut keeper = Keeper::new(&folder, scene.exposure, context);
+    let rendered = render_surface(scene, resources, backend, &mut |event| keeper.see(event));
+    keeper.finish()?;
+    let rendered = rendered.with_context(|| scene.name.clone())?;
+    render_surface::finish(scene, &rendered, &folder, context)
+}
+
+/// The folder to write to, made if it is not there.
+fn folder(arguments: &Arguments, name: &str) -> anyhow::Result<PathBuf> {
+    let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from(name));
+    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    Ok(folder)
+}
+
+fn lobe(mut scene: Scene, arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
+    let project = context.project()?;
     if let (Some(options), Some(seed)) = (&mut scene.monte_carlo, context.seed) {
         options.seed = seed;
     }
     let device = device(arguments.backend, context)?;
     let backend = device.as_ref().map_or(Backend::Lanes, Backend::Device);
-    let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from(&scene.name));
-    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    let folder = folder(arguments, &scene.name)?;
 
     let (fits, data) = (project.fits(), project.data());
-    let mut keeper = Keeper {
-        folder: &folder,
-        exposure: scene.view.exposure,
-        bar: progress::bar(context.output, 0),
-        failed: None,
-    };
+    let mut keeper = Keeper::new(&folder, scene.view.exposure, context);
     let resources = Resources { fits: &fits, data: &data };
     let rendered = render_scene(&scene, resources, backend, &mut |event| keeper.see(event));
-    keeper.bar.finish_and_clear();
-    if let Some(error) = keeper.failed.take() {
-        return Err(error);
-    }
+    keeper.finish()?;
     let rendered = rendered.with_context(|| {
         format!("{}: what is finished is kept in {}", scene.name, folder.display())
     })?;
@@ -118,7 +142,17 @@ struct Keeper<'a> {
     failed: Option<anyhow::Error>,
 }
 
-impl Keeper<'_> {
+impl<'a> Keeper<'a> {
+    fn new(folder: &'a Path, exposure: f64, context: &Context) -> Self {
+        Self { folder, exposure, bar: progress::bar(context.output, 0), failed: None }
+    }
+
+    /// Ends the bar; the first error of writing, if there was one.
+    fn finish(&mut self) -> anyhow::Result<()> {
+        self.bar.finish_and_clear();
+        self.failed.take().map_or(Ok(()), Err)
+    }
+
     fn see(&mut self, event: Event<'_>) {
         match event {
             Event::Tile { name, done, of } => {

@@ -14,7 +14,9 @@ use crate::gate::{Check, Judgement, SCENES, Verdict as Standing};
 use crate::gpu::Device;
 use crate::report::document::{Page, Provenance, Verdict};
 use crate::report::html::{Written, write_site};
-use crate::report::pages::{Evidence, GateLine, effect_page, index_page, scenes_page};
+use crate::report::pages::{
+    Evidence, GateLine, effect_page, index_page, scenes_page, surfaces_page,
+};
 use crate::validate::measured::Measured;
 
 const MORE: &str = "\
@@ -64,7 +66,7 @@ pub(super) fn write(
         studied.push(studies::measure(effect, &results, device, context)?);
         bar.inc(1);
     }
-    let scenes = studies::scenes(device, context)?;
+    let (scenes, surfaces) = studies::scenes(device, context)?;
     bar.set_message("writing the report");
     let lines: Vec<GateLine> = check.gates.iter().map(line).collect();
     let of: Vec<Vec<GateLine>> = studied.iter().map(|studied| gates_of(studied, &lines)).collect();
@@ -83,10 +85,20 @@ pub(super) fn write(
         .collect();
     let mut pages = vec![index_page(&evidence, &lines)];
     pages.extend(evidence.iter().map(effect_page).collect::<Result<Vec<Page>, _>>()?);
+    let of_scenes = |names: Vec<&str>| -> Vec<GateLine> {
+        let named = |line: &&GateLine| {
+            let rest = line.subject.strip_prefix(SCENES).unwrap_or_default();
+            names.contains(&rest.split('#').next().unwrap_or_default())
+        };
+        lines.iter().filter(named).cloned().collect()
+    };
     if !scenes.is_empty() {
-        let of_scenes: Vec<GateLine> =
-            lines.iter().filter(|line| line.subject.starts_with(SCENES)).cloned().collect();
-        pages.push(scenes_page(&scenes, &of_scenes)?);
+        let names = scenes.iter().map(|of| of.scene.name.as_str()).collect();
+        pages.push(scenes_page(&scenes, &of_scenes(names))?);
+    }
+    if !surfaces.is_empty() {
+        let names = surfaces.iter().map(|of| of.scene.name.as_str()).collect();
+        pages.push(surfaces_page(&surfaces, &of_scenes(names))?);
     }
     let provenance = Provenance {
         version: env!("CARGO_PKG_VERSION").to_owned(),

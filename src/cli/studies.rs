@@ -9,8 +9,9 @@ use crate::effects::registry::{EFFECTS, Effect, Member};
 use crate::fit::FitResult;
 use crate::fit::outcome::{FamilyOutcome, Outcome};
 use crate::gpu::{self, Device};
-use crate::render::{Backend, Resources, Scene, render_scene};
-use crate::report::pages::SceneEvidence;
+use crate::render::surface::render_surface;
+use crate::render::{AnyScene, Backend, Resources, render_scene};
+use crate::report::pages::{SceneEvidence, SurfaceEvidence};
 use crate::validate::candidates::{candidates, timed_references};
 use crate::validate::cost::{Costs, costs};
 use crate::validate::measured::Measured;
@@ -93,19 +94,28 @@ pub(super) fn effects(names: &[String]) -> anyhow::Result<Vec<&'static Effect>> 
 pub(super) fn scenes(
     device: &Measured<Device>,
     context: &Context,
-) -> anyhow::Result<Vec<SceneEvidence>> {
+) -> anyhow::Result<(Vec<SceneEvidence>, Vec<SurfaceEvidence>)> {
     let project = context.project()?;
     let (fits, data) = (project.fits(), project.data());
     let backend = device.value().map_or(Backend::Lanes, Backend::Device);
-    let mut found = Vec::new();
+    let (mut lobes, mut surfaces) = (Vec::new(), Vec::new());
     for path in project.scenes()? {
-        let scene = Scene::read(&path)?;
         let resources = Resources { fits: &fits, data: &data };
-        let rendered = render_scene(&scene, resources, backend, &mut |_| ())
-            .with_context(|| path.display().to_string())?;
-        found.push(SceneEvidence { scene, rendered });
+        let named = || path.display().to_string();
+        match AnyScene::read(&path)? {
+            AnyScene::Lobe(scene) => {
+                let rendered =
+                    render_scene(&scene, resources, backend, &mut |_| ()).with_context(named)?;
+                lobes.push(SceneEvidence { scene: *scene, rendered });
+            }
+            AnyScene::Surface(scene) => {
+                let rendered =
+                    render_surface(&scene, resources, backend, &mut |_| ()).with_context(named)?;
+                surfaces.push(SurfaceEvidence { scene: *scene, rendered });
+            }
+        }
     }
-    Ok(found)
+    Ok((lobes, surfaces))
 }
 
 /// Measures `effect`: accuracy, laws, parity, findings and cost.

@@ -19,6 +19,16 @@ pub enum FormError {
         /// The construct.
         what: String,
     },
+    /// A table given beside the text is not what the text declares.
+    #[error("{origin}: table `{table}` {what}")]
+    Table {
+        /// File the text came from.
+        origin: String,
+        /// Name of the table.
+        table: String,
+        /// What is wrong.
+        what: String,
+    },
     /// The text has no function of that name.
     #[error("{origin}: no function `{function}`; the functions here are: {available}")]
     NoFunction {

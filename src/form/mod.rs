@@ -18,6 +18,7 @@
 
 mod compile;
 mod cost;
+mod data_table;
 pub mod emit;
 mod error;
 pub mod lanes;
@@ -28,6 +29,7 @@ mod program;
 use std::sync::Arc;
 
 pub use cost::OpCount;
+pub use data_table::{DataTable, GROUP as TABLE_GROUP};
 pub use error::FormError;
 pub use load::{MAX_BRACKET_NESTING, MAX_ELSE, MAX_OPERATORS, MAX_SOURCE_BYTES};
 
@@ -62,6 +64,7 @@ struct Inner {
     origin: String,
     source: String,
     function: String,
+    tables: Vec<DataTable>,
     module: naga::Module,
     compiled: compile::Compiled,
 }
@@ -78,15 +81,32 @@ impl Form {
     /// [`FormError::Unsupported`] for what forms cannot use, [`FormError::TooLarge`] beyond the
     /// stated limits.
     pub fn parse(origin: &str, source: &str, function: &str) -> Result<Self, FormError> {
+        Self::parse_with(origin, source, function, Vec::new())
+    }
+
+    /// The same for a text that reads storage buffers: `tables` gives the numbers of
+    /// `@group(1) @binding(i) var<storage, read> NAME: array<f32>`, one entry per binding in their
+    /// order. On the device they are buffers, as in an engine; lanes read the same numbers.
+    ///
+    /// # Errors
+    /// As [`Form::parse`]; [`FormError::Table`] if a table is not declared so, or is empty.
+    pub fn parse_with(
+        origin: &str,
+        source: &str,
+        function: &str,
+        tables: Vec<DataTable>,
+    ) -> Result<Self, FormError> {
         let (module, compiled) = load::guarded(origin, || {
             let (module, info) = load::module(origin, source)?;
-            let compiled = compile::compile(origin, source, &module, &info, function)?;
+            data_table::check(origin, &module, &tables)?;
+            let compiled = compile::compile(origin, source, &module, &info, function, &tables)?;
             Ok((module, compiled))
         })?;
         let inner = Inner {
             origin: origin.to_owned(),
             source: source.to_owned(),
             function: function.to_owned(),
+            tables,
             module,
             compiled,
         };
@@ -100,6 +120,10 @@ impl Form {
     /// The text, unchanged.
     pub fn source(&self) -> &str {
         &self.inner.source
+    }
+    /// The tables given beside the text, in the order of their bindings.
+    pub fn tables(&self) -> &[DataTable] {
+        &self.inner.tables
     }
     /// Name of the function.
     pub fn function(&self) -> &str {

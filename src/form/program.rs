@@ -5,6 +5,8 @@
 //! for every lane, also for those that the control flow has left. Variables are registers that
 //! [`Instr::Store`] and [`Instr::Scatter`] write, and only those two obey the execution mask.
 
+use std::sync::Arc;
+
 use super::operation::{B2, Compare, F1, F2, FToI, I1, I2, IToF};
 
 /// Index into the register file of one kind.
@@ -200,7 +202,7 @@ pub(crate) struct Case {
 /// A constant array, flattened to scalars.
 #[derive(Debug, Clone)]
 pub(crate) enum Table {
-    F(Vec<f32>),
+    F(Arc<[f32]>),
     I(Vec<u32>),
     B(Vec<bool>),
 }

@@ -5,17 +5,40 @@ use std::collections::BTreeMap;
 use super::{Evidence, Gate, GateError, Metric, Precision, Reached};
 use crate::gpu::Device;
 use crate::render::light_form::LightForm;
-use crate::render::{Backend, JudgedScene, Metrics, RenderError, Resources, ShadedBy};
+use crate::render::surface::{Plan, PreparedSurface};
+use crate::render::{AnyScene, Backend, JudgedScene, Metrics, RenderError, Resources, ShadedBy};
 
 /// What the subject of a gate on a scene begins with.
 pub const SCENES: &str = "scenes/";
 
 /// A scene and one approximation of it.
 #[derive(Debug)]
-pub(super) struct SceneSubject<'e> {
-    scene: &'e JudgedScene,
-    by: ShadedBy,
+pub(super) enum SceneSubject<'e> {
+    /// The lobe of a scratch.
+    Lobe {
+        /// The scene with its reference.
+        scene: &'e JudgedScene,
+        /// What shades it.
+        by: ShadedBy,
+    },
+    /// A surface under an environment.
+    Surface {
+        /// The scene with its reference.
+        scene: &'e PreparedSurface,
+        /// What is summed.
+        plan: Plan,
+    },
 }
+
+/// A scene with its reference.
+#[derive(Debug)]
+enum Known {
+    Lobe(Box<JudgedScene>),
+    Surface(Box<PreparedSurface>),
+}
+
+/// What is moved of a picture without constants: all of its values.
+const OUTPUT: &str = "output";
 
 impl Gate {
     /// Scene and approximation, if the subject is `scenes/NAME#approximation`.
@@ -28,7 +51,18 @@ impl Gate {
 /// The scenes that gates have named, with their references.
 #[derive(Debug, Default)]
 pub(super) struct Scenes {
-    known: BTreeMap<String, JudgedScene>,
+    known: BTreeMap<String, Known>,
+}
+
+impl Known {
+    fn read(path: &std::path::Path, resources: Resources<'_>) -> Result<Self, RenderError> {
+        Ok(match AnyScene::read(path)? {
+            AnyScene::Lobe(_) => Self::Lobe(Box::new(JudgedScene::read(path, resources)?)),
+            AnyScene::Surface(scene) => {
+                Self::Surface(Box::new(PreparedSurface::new(*scene, resources, Backend::Lanes)?))
+            }
+        })
+    }
 }
 
 impl Scenes {
@@ -48,22 +82,30 @@ impl Scenes {
                 return Err(gate.fault(format!("there is no scene data/scenes/{name}.toml")));
             }
             let (fits, data) = (root.join("fits"), root.join("data/measured"));
-            let judged = JudgedScene::read(&path, Resources { fits: &fits, data: &data })?;
-            self.known.insert(name.to_owned(), judged);
+            let known = Known::read(&path, Resources { fits: &fits, data: &data })?;
+            self.known.insert(name.to_owned(), known);
         }
-        let scene = self.known.get(name).ok_or_else(|| gate.fault("no scene".to_owned()))?;
-        let found = scene.approximations().iter().find(|by| by.name == approximation);
-        let by = found.cloned().ok_or_else(|| {
-            let known: Vec<&str> =
-                scene.approximations().iter().map(|by| by.name.as_str()).collect();
-            GateError::UnknownMember {
-                gate: gate.index,
-                line: gate.line,
-                subject: gate.subject.clone(),
-                known: known.join(", "),
+        let unknown = |known: Vec<&str>| GateError::UnknownMember {
+            gate: gate.index,
+            line: gate.line,
+            subject: gate.subject.clone(),
+            known: known.join(", "),
+        };
+        match self.known.get(name).ok_or_else(|| gate.fault("no scene".to_owned()))? {
+            Known::Lobe(scene) => {
+                let all = scene.approximations();
+                let by = all.iter().find(|by| by.name == approximation).cloned();
+                let names = || all.iter().map(|by| by.name.as_str()).collect();
+                Ok(SceneSubject::Lobe { scene, by: by.ok_or_else(|| unknown(names()))? })
             }
-        })?;
-        Ok(SceneSubject { scene, by })
+            Known::Surface(scene) => {
+                let all = &scene.scene.approximations;
+                let found = all.iter().find(|found| found.name == approximation);
+                let names = || all.iter().map(|found| found.name.as_str()).collect();
+                let method = found.ok_or_else(|| unknown(names()))?.method;
+                Ok(SceneSubject::Surface { scene, plan: scene.plan(method)? })
+            }
+        }
     }
 }
 
@@ -74,13 +116,14 @@ impl SceneSubject<'_> {
         gate: &Gate,
         device: Option<&Device>,
     ) -> Result<Reached, RenderError> {
-        self.reached_by(gate, &self.by, device)
+        self.moved(gate, None, device)
     }
 
-    /// Names of the constants of its forms.
+    /// Names of what can be moved: the constants of the forms, or all values.
     pub(super) fn constants(&self) -> Vec<String> {
+        let Self::Lobe { by, .. } = self else { return vec![OUTPUT.to_owned()] };
         let mut names: Vec<String> = Vec::new();
-        for form in [&self.by.sphere, &self.by.polygon].into_iter().flatten() {
+        for form in [&by.sphere, &by.polygon].into_iter().flatten() {
             for parameter in form.form.parameters() {
                 if !names.contains(&parameter.name) {
                     names.push(parameter.name.clone());
@@ -90,7 +133,7 @@ impl SceneSubject<'_> {
         names
     }
 
-    /// The same with `constant` moved by the relative step in every form that has it.
+    /// The same with `constant` moved by the relative step wherever it is.
     pub(super) fn perturbed(
         &self,
         gate: &Gate,
@@ -98,26 +141,40 @@ impl SceneSubject<'_> {
         step: f64,
         device: Option<&Device>,
     ) -> Result<Reached, RenderError> {
-        let mut by = self.by.clone();
-        for form in [&mut by.sphere, &mut by.polygon].into_iter().flatten() {
-            move_constant(form, constant, step);
-        }
-        self.reached_by(gate, &by, device)
+        self.moved(gate, Some((constant, step)), device)
     }
 
-    fn reached_by(
+    fn moved(
         &self,
         gate: &Gate,
-        by: &ShadedBy,
+        change: Option<(&str, f64)>,
         device: Option<&Device>,
     ) -> Result<Reached, RenderError> {
         let backend = match (gate.precision, device) {
             (Precision::Device, Some(device)) => Backend::Device(device),
             _ => Backend::Lanes,
         };
-        let found = self.scene.metrics(by, backend)?;
+        let (found, count) = match self {
+            Self::Lobe { scene, by } => {
+                let mut by = by.clone();
+                if let Some((constant, step)) = change {
+                    for form in [&mut by.sphere, &mut by.polygon].into_iter().flatten() {
+                        move_constant(form, constant, step);
+                    }
+                }
+                (scene.metrics(&by, backend)?, scene.values())
+            }
+            Self::Surface { scene, plan } => {
+                let mut image = scene.picture(plan, backend)?;
+                if let Some((_, step)) = change {
+                    let values = image.channels.iter_mut().flat_map(|channel| &mut channel.values);
+                    values.for_each(|value| *value *= (1.0 + step) as f32);
+                }
+                (scene.metrics(&image)?, 3 * image.width * image.height)
+            }
+        };
         let (value, at) = figure(gate.metric, &found);
-        Ok(Reached { value, at, of: None, count: self.scene.values() })
+        Ok(Reached { value, at, of: None, count })
     }
 }
 

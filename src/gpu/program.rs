@@ -7,6 +7,7 @@ use super::error::GpuError;
 use super::tables::{self, BoundTables};
 use crate::form::Form;
 use std::fmt::Write;
+use std::sync::Arc;
 
 /// Invocations per workgroup of every kernel; every adapter allows 64.
 pub(super) const WORKGROUP: u32 = 64;
@@ -38,7 +39,7 @@ pub(super) struct Program {
     pub(super) text: String,
     entry: String,
     constants: Vec<(String, f64)>,
-    tables: Vec<Vec<f32>>,
+    tables: Vec<Arc<[f32]>>,
 }
 
 /// A compiled kernel with its tables.
@@ -72,7 +73,12 @@ impl Program {
         }
         let names = form.parameters().iter().map(|parameter| parameter.name.as_str());
         let values: Vec<_> = names.zip(parameters.iter().copied()).collect();
-        Self::from_text(form.origin(), form.source(), form.function(), &values, purpose)
+        let mut program =
+            Self::from_text(form.origin(), form.source(), form.function(), &values, purpose)?;
+        if !form.tables().is_empty() {
+            program.tables = form.tables().iter().map(|table| Arc::clone(&table.values)).collect();
+        }
+        Ok(program)
     }
 
     /// The same from text: `parameters` are names of `override` constants with their values.

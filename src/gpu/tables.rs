@@ -12,6 +12,7 @@ use super::device::Device;
 use super::error::GpuError;
 use std::cmp::Reverse;
 use std::ops::Range;
+use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
 /// Entries from which an array is worth a buffer; compilers handle smaller ones in registers.
@@ -21,13 +22,13 @@ const LEAST_ENTRIES: usize = 32;
 const MOST_TABLES: usize = 6;
 
 /// Bind group of the tables.
-const GROUP: u32 = 1;
+const GROUP: u32 = crate::form::TABLE_GROUP;
 
 /// A text whose tables are declared as buffers, and their entries in the order of the bindings.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Lifted {
     pub(super) text: String,
-    pub(super) tables: Vec<Vec<f32>>,
+    pub(super) tables: Vec<Arc<[f32]>>,
 }
 
 /// Moves the tables of `source`, of which `module` is the parsed form, into buffers: the largest
@@ -35,6 +36,13 @@ pub(super) struct Lifted {
 /// constant is returned as it is.
 pub(super) fn lift(module: &naga::Module, source: &str) -> Lifted {
     let unchanged = || Lifted { text: source.to_owned(), tables: Vec::new() };
+    let bound = |variable: &naga::GlobalVariable| {
+        variable.binding.as_ref().is_some_and(|binding| binding.group == GROUP)
+    };
+    if module.global_variables.iter().any(|(_, variable)| bound(variable)) {
+        // The text has buffers of its own there.
+        return unchanged();
+    }
     let mut found: Vec<Table<'_>> = module
         .constants
         .iter()
@@ -57,7 +65,7 @@ pub(super) fn lift(module: &naga::Module, source: &str) -> Lifted {
     if found.is_empty() || naga::front::wgsl::parse_str(&text).is_err() {
         return unchanged();
     }
-    Lifted { text, tables: found.into_iter().map(|table| table.entries).collect() }
+    Lifted { text, tables: found.into_iter().map(|table| table.entries.into()).collect() }
 }
 
 /// A constant array in a text.
@@ -133,7 +141,7 @@ pub(super) struct BoundTables {
 
 impl BoundTables {
     /// Uploads `tables`, one buffer each.
-    pub(super) fn new(device: &Device, tables: &[Vec<f32>]) -> Result<Self, GpuError> {
+    pub(super) fn new(device: &Device, tables: &[Arc<[f32]>]) -> Result<Self, GpuError> {
         device.guarded(|| {
             let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..)
                 .zip(tables)
@@ -212,7 +220,7 @@ mod tests {
         );
         let lifted = lifted(&source)?;
         let expected: Vec<f32> = (0..40).map(|i| i as f32 + 0.5).collect();
-        assert_eq!(lifted.tables, [expected]);
+        assert_eq!(lifted.tables, [expected.into()]);
         let declaration =
             "@group(1) @binding(0) var<storage, read> LONG: array<f32, 40>;".to_owned();
         let lines = "\n".repeat(long.matches('\n').count());
@@ -227,7 +235,7 @@ mod tests {
             "const A: f32 = -0.25; const T = array<f32, 32>({entries});\n\
              fn f(x: f32) -> f32 {{ return T[u32(x)]; }}"
         );
-        assert_eq!(lifted(&source)?.tables, [vec![-0.25_f32; 32]]);
+        assert_eq!(lifted(&source)?.tables, [vec![-0.25_f32; 32].into()]);
         Ok(())
     }
 
@@ -246,7 +254,7 @@ mod tests {
         let tables: String = (0..8).map(|i| table(&format!("T{i}"), 32 + i) + "\n").collect();
         let sum: Vec<String> = (0..8).map(|i| format!("T{i}[u32(x)]")).collect();
         let source = format!("{tables}fn f(x: f32) -> f32 {{ return {}; }}", sum.join(" + "));
-        let lengths: Vec<usize> = lifted(&source)?.tables.iter().map(Vec::len).collect();
+        let lengths: Vec<usize> = lifted(&source)?.tables.iter().map(|table| table.len()).collect();
         assert_eq!(lengths, [34, 35, 36, 37, 38, 39]);
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! Why a scene could not be read or rendered.
 
 use crate::effects::registry::DomainError;
+use crate::fit::low_rank::LowRankError;
 use crate::form::FormError;
 use crate::gpu::GpuError;
 use crate::measured::MeasuredError;
@@ -54,6 +55,12 @@ pub enum RenderError {
     /// Spectra do not load, or do not cover the wavelengths.
     #[error(transparent)]
     Measured(#[from] MeasuredError),
+    /// A diffraction table that cannot be factorised as asked.
+    #[error(transparent)]
+    LowRank(#[from] LowRankError),
+    /// A diffraction table that cannot be made or used.
+    #[error("{0}")]
+    Simulation(String),
     /// Images that cannot be compared.
     #[error(transparent)]
     Compare(Box<CompareError>),

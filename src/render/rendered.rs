@@ -121,18 +121,23 @@ pub struct RenderedApproximation {
 impl RenderedApproximation {
     /// What of its budget is exceeded, in words.
     pub fn over_budget(&self) -> Vec<String> {
-        let Some(budget) = self.budget else { return Vec::new() };
-        let limits = [
-            ("relative RMS", self.metrics.relative_rms, budget.relative_rms),
-            ("FLIP", self.metrics.flip, budget.flip),
-        ];
-        let over = limits.into_iter().filter_map(|(what, got, limit)| {
-            // A NaN exceeds every limit.
-            let limit = limit.filter(|limit| got.is_nan() || got > *limit)?;
-            Some(format!("{}: {what} {got:.4e} is over its budget of {limit:e}", self.name))
-        });
-        over.collect()
+        over_budget(&self.name, &self.metrics, self.budget.as_ref())
     }
+}
+
+/// What of `budget` the picture called `name` exceeds, in words.
+pub(super) fn over_budget(name: &str, metrics: &Metrics, budget: Option<&Budget>) -> Vec<String> {
+    let Some(budget) = budget else { return Vec::new() };
+    let limits = [
+        ("relative RMS", metrics.relative_rms, budget.relative_rms),
+        ("FLIP", metrics.flip, budget.flip),
+    ];
+    let over = limits.into_iter().filter_map(|(what, got, limit)| {
+        // A NaN exceeds every limit.
+        let limit = limit.filter(|limit| got.is_nan() || got > *limit)?;
+        Some(format!("{name}: {what} {got:.4e} is over its budget of {limit:e}"))
+    });
+    over.collect()
 }
 
 /// Loads the forms that the approximations of `scene` name.

@@ -10,8 +10,8 @@ use super::illumination::Facets;
 use super::light_form::is_in_project;
 use super::polygon::Polygon;
 use super::scene::{
-    ApproximationChoice, Budget, FILES, Light, MAX_PIXELS, MonteCarlo, ReferenceMethod,
-    SAMPLES_PER_PASS, Scene, Scratch, Shape, Spectrum, View,
+    ApproximationChoice, Budget, Light, MAX_PIXELS, MonteCarlo, ReferenceMethod, SAMPLES_PER_PASS,
+    Scene, Scratch, Shape, Spectrum, View,
 };
 use super::scene_keys::Keys;
 
@@ -145,7 +145,11 @@ impl Scene {
 impl Keys<'_> {
     fn view(&self, view: &ViewFile) -> Result<View, RenderError> {
         if view.kind != "equirectangular" {
-            return Err(self.unknown_kind("view.kind", &view.kind, "\"equirectangular\""));
+            return Err(self.unknown_kind(
+                "view.kind",
+                &view.kind,
+                "\"equirectangular\" or \"camera\"",
+            ));
         }
         let side = |key, pixels: i64| match usize::try_from(pixels) {
             Ok(side) if (1..=MAX_PIXELS).contains(&side) => Ok(side),
@@ -327,17 +331,8 @@ impl Keys<'_> {
         let mut chosen: Vec<ApproximationChoice> = Vec::new();
         for (at, file) in approximations.into_iter().enumerate() {
             let key = format!("approximation[{at}].name");
-            let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-            if file.name.is_empty() || !file.name.chars().all(plain) {
-                let what = format!("expected letters, digits, _ and -, got \"{}\"", file.name);
-                return Err(self.wrong(key, what));
-            }
-            if FILES.contains(&file.name.as_str()) {
-                return Err(self.wrong(key, format!("\"{}\" names another file", file.name)));
-            }
-            if chosen.iter().any(|other| other.name == file.name) {
-                return Err(self.wrong(key, format!("\"{}\" is there twice", file.name)));
-            }
+            let known: Vec<&str> = chosen.iter().map(|other| other.name.as_str()).collect();
+            self.approximation_name(&key, &file.name, &known)?;
             let ApproximationFile { name, sphere, polygon } = file;
             chosen.push(ApproximationChoice { name, sphere, polygon });
         }
@@ -374,21 +369,8 @@ impl Keys<'_> {
                 }
             }
         }
-        for (name, budget) in &scene.budget {
-            if !scene.approximations.iter().any(|choice| choice.name == *name) {
-                let what = "there is no approximation of that name";
-                return Err(self.wrong(format!("budget.{name}"), what));
-            }
-            if *budget == Budget::default() {
-                let what = "expected `relative_rms`, `flip` or both, got neither";
-                return Err(self.wrong(format!("budget.{name}"), what));
-            }
-            for (key, limit) in [("relative_rms", budget.relative_rms), ("flip", budget.flip)] {
-                if let Some(limit) = limit {
-                    self.within(&format!("budget.{name}.{key}"), limit, 0.0, 1e9)?;
-                }
-            }
-        }
+        let names: Vec<&str> = scene.approximations.iter().map(|a| a.name.as_str()).collect();
+        self.budgets(&scene.budget, &names)?;
         Ok(())
     }
 }

@@ -6,9 +6,12 @@ use super::image::{Channel, Image};
 use super::rendered::RenderedScene;
 use super::scene::{Scene, View};
 use super::srgb::decoded;
+use super::surface::RenderedSurface;
 
 /// Pixels between images.
 const GAP: usize = 4;
+/// Relative error that has the last colour in the pictures of surfaces.
+pub const SURFACE_ERROR: f64 = 1.0;
 /// Value of the gaps: above what is displayed, so that it shows white at any exposure from 0.01.
 const GAP_VALUE: f32 = 100.0;
 
@@ -19,25 +22,55 @@ const GAP_VALUE: f32 = 100.0;
 /// [`RenderError::Compare`] if images do not match.
 pub fn comparison(scene: &Scene, rendered: &RenderedScene) -> Result<(Image, f64), RenderError> {
     let View { width, height, exposure } = scene.view;
-    let approximations = &rendered.approximations;
-    let scale = approximations.iter().map(|found| found.error.scale).fold(0.0, f64::max);
+    let found = &rendered.approximations;
+    let pictures: Vec<&Image> = found.iter().map(|a| &a.image).collect();
+    let scale = found.iter().map(|a| a.error.scale).fold(0.0, f64::max);
     let scale = if scale > 0.0 { scale } else { 1.0 };
-    let errors: Vec<Image> = approximations
+    let errors = error_pictures(&pictures, &rendered.reference, exposure, scale)?;
+    let blank = Image::rgb(width, height, &vec![[0.0; 3]; width * height]);
+    let mut images = vec![&rendered.reference];
+    images.extend(&pictures);
+    images.push(rendered.monte_carlo.as_ref().map_or(&blank, |sampled| &sampled.image));
+    images.extend(&errors);
+    Ok((side_by_side(&images, found.len() + 1), scale))
+}
+
+/// A row per picture of a surface, the reference first: the picture, and where it errs, black for 0
+/// to pale for [`SURFACE_ERROR`].
+///
+/// # Errors
+/// As [`comparison`].
+pub fn surface_comparison(exposure: f64, rendered: &RenderedSurface) -> Result<Image, RenderError> {
+    let found = &rendered.approximations;
+    let reference = &rendered.reference;
+    let pictures: Vec<&Image> = found.iter().map(|a| &a.image).collect();
+    let errors = error_pictures(&pictures, reference, exposure, SURFACE_ERROR)?;
+    let pixels = reference.width * reference.height;
+    let blank = Image::rgb(reference.width, reference.height, &vec![[0.0; 3]; pixels]);
+    let mut images = vec![reference, &blank];
+    for (image, error) in pictures.iter().zip(&errors) {
+        images.extend([*image, error]);
+    }
+    Ok(side_by_side(&images, 2))
+}
+
+/// Errors in false colours, all on one scale.
+fn error_pictures(
+    pictures: &[&Image],
+    reference: &Image,
+    exposure: f64,
+    scale: f64,
+) -> Result<Vec<Image>, RenderError> {
+    pictures
         .iter()
-        .map(|found| {
-            let map = ErrorMap::relative(&found.image, &rendered.reference, Some(scale))?;
+        .map(|image| {
+            let map = ErrorMap::relative(image, reference, Some(scale))?;
             let colour =
                 |rgb: [u8; 3]| rgb.map(|byte| (decoded(f64::from(byte) / 255.0) / exposure) as f32);
             let colours: Vec<[f32; 3]> = map.pixels().into_iter().map(colour).collect();
-            Ok(Image::rgb(width, height, &colours))
+            Ok(Image::rgb(reference.width, reference.height, &colours))
         })
-        .collect::<Result<_, RenderError>>()?;
-    let blank = Image::rgb(width, height, &vec![[0.0; 3]; width * height]);
-    let mut images = vec![&rendered.reference];
-    images.extend(approximations.iter().map(|found| &found.image));
-    images.push(rendered.monte_carlo.as_ref().map_or(&blank, |sampled| &sampled.image));
-    images.extend(&errors);
-    Ok((side_by_side(&images, approximations.len() + 1), scale))
+        .collect()
 }
 
 /// The R, G, B of the images in rows of `across`, from left to right and top to bottom, with white

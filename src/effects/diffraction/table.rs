@@ -7,11 +7,11 @@
 
 use rayon::prelude::*;
 
+use super::DiffractionError;
 use super::far_field::{FarField, Transform};
 use super::illuminant::Illuminant;
 use super::preparation::PreparedSurface;
 use super::resample::{Cells, gathered};
-use super::DiffractionError;
 use crate::measured::pattern::Pattern;
 use crate::measured::spectra::Spectra;
 use crate::table::{Axis, Channel, Grid, MAX_PIXEL_BYTES};

@@ -9,6 +9,7 @@ use super::{Alignment, LowRank, LowRankError};
 use crate::table::{Axis, Grid};
 
 /// S = U Σ Vᵀ of every channel of a table, whole.
+#[derive(Debug, Clone)]
 pub struct Decomposition {
     x: Axis,
     y: Axis,

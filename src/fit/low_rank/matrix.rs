@@ -63,6 +63,7 @@ pub(super) fn relative_error(a: MatRef<'_, f64>, v: MatRef<'_, f64>, h: MatRef<'
 }
 
 /// a = left · diag(values) · rightᵀ, values descending.
+#[derive(Debug, Clone)]
 pub(super) struct ThinSvd {
     pub(super) left: Mat<f64>,
     pub(super) values: Vec<f64>,

@@ -86,6 +86,9 @@ impl<'m> Compiler<'m> {
         let variable = &self.module.global_variables[handle];
         let span = self.module.global_variables.get_span(handle);
         let name = variable.name.as_deref().unwrap_or("?");
+        if let Some(table) = self.given(variable) {
+            return Ok(table);
+        }
         if variable.space != AddressSpace::Private {
             let what = match (variable.space, &self.module.types[variable.ty].inner) {
                 (AddressSpace::Uniform, _) => "a uniform buffer",
@@ -116,6 +119,14 @@ impl<'m> Compiler<'m> {
         Ok(Value::Place(Place { count: regs.len(), regs, offset: 0, index: None }))
     }
 
+    /// The table of a storage buffer whose numbers are given beside the text.
+    fn given(&mut self, variable: &naga::GlobalVariable) -> Option<Value> {
+        let name = variable.name.as_deref()?;
+        let index = self.given.iter().position(|table| table.name == name)?;
+        let length = self.given.get(index)?.values.len() as u32;
+        Some(Value::Table { table: index as u32, length })
+    }
+
     /// The value of a variable now.
     pub(super) fn load(&mut self, place: &Place) -> Result<Value, FormError> {
         let mut loaded = Vec::with_capacity(place.count);
@@ -138,6 +149,10 @@ impl<'m> Compiler<'m> {
         base: Value,
         index: usize,
     ) -> Result<Value, FormError> {
+        if let Value::Table { .. } = base {
+            let index = self.integer(index as u32);
+            return self.access(inner, base, index);
+        }
         let inner = self.pointee(inner).into_owned();
         let (at, length) = self.element(&inner, index)?;
         Ok(match base {
@@ -159,6 +174,7 @@ impl<'m> Compiler<'m> {
             Value::Place(place) => {
                 Value::Place(Place { offset: place.offset + at, count: length, ..place })
             }
+            Value::Table { .. } => return Err(self.mixed()),
         })
     }
 
@@ -174,6 +190,11 @@ impl<'m> Compiler<'m> {
         base: Value,
         index: Slot,
     ) -> Result<Value, FormError> {
+        if let Value::Table { table, length } = base {
+            let last = self.integer(length.saturating_sub(1));
+            let index = self.integer2(I2::MinUnsigned, index, last)?;
+            return Ok(Value::Row { table, kind: Kind::F, index, offset: 0, count: 1 });
+        }
         let inner = self.pointee(inner).into_owned();
         let (stride, length) = self.stride(&inner)?;
         let last = self.integer((length as u32).saturating_sub(1));
@@ -206,6 +227,7 @@ impl<'m> Compiler<'m> {
                 };
                 Ok(Value::Place(Place { count: stride, index: Some(index), ..place }))
             }
+            Value::Table { .. } => Err(self.mixed()),
         }
     }
 

@@ -109,7 +109,7 @@ impl Compiler<'_> {
                     Ok(to)
                 })
                 .collect(),
-            Value::Place(_) => {
+            Value::Place(_) | Value::Table { .. } => {
                 Err(self.unsupported(self.here, "a pointer passed around as a value"))
             }
         }

@@ -128,6 +128,7 @@ impl<'m> Compiler<'m> {
             },
             &Expression::Load { pointer } => match self.value(frame, pointer)? {
                 Value::Place(place) => self.load(&place),
+                row @ Value::Row { .. } => Ok(Value::Regs(self.regs(row)?)),
                 _ => Err(self.unsupported(span, "reading through this pointer")),
             },
             &Expression::Unary { op, expr } => {

@@ -17,8 +17,8 @@ use std::collections::{HashMap, HashSet};
 
 use naga::{Handle, Module, Span, TypeInner, valid::ModuleInfo};
 
-use super::program::{Instr, Node, Program, Reg, Slot};
-use super::{Argument, FormError, Parameter};
+use super::program::{Instr, Node, Program, Reg, Slot, Table};
+use super::{Argument, DataTable, FormError, Parameter};
 use body::Frame;
 use value::{Scalar, Value};
 
@@ -54,6 +54,8 @@ struct Compiler<'m> {
     source: &'m str,
     module: &'m Module,
     info: &'m ModuleInfo,
+    /// Tables given beside the text, the first of the program's.
+    given: &'m [DataTable],
     program: Program,
     /// Registers that hold the same value in every lane.
     uniform: HashSet<Reg>,
@@ -80,6 +82,7 @@ pub(crate) fn compile(
     module: &Module,
     info: &ModuleInfo,
     function: &str,
+    given: &[DataTable],
 ) -> Result<Compiled, FormError> {
     let Some((handle, naga_function)) =
         module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(function))
@@ -98,7 +101,11 @@ pub(crate) fn compile(
         source,
         module,
         info,
-        program: Program::default(),
+        given,
+        program: Program {
+            tables: given.iter().map(|table| Table::F(table.values.clone())).collect(),
+            ..Program::default()
+        },
         uniform: HashSet::new(),
         floats: HashMap::new(),
         integers: HashMap::new(),

@@ -27,6 +27,8 @@ pub(super) enum Value {
     Regs(Vec<Reg>),
     /// An array that is known at compile time; it becomes a table when it is indexed.
     Array(Vec<Scalar>),
+    /// A table that is given beside the text: `length` numbers.
+    Table { table: u32, length: u32 },
     /// Part of a table: `count` scalars from `index + offset`.
     Row { table: u32, kind: Kind, index: Slot, offset: u32, count: u32 },
     /// A reference to a variable or a part of one.

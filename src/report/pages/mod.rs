@@ -10,6 +10,7 @@ mod fits;
 mod gates;
 mod index;
 mod scenes;
+mod surfaces;
 
 use std::path::Path;
 
@@ -25,6 +26,7 @@ use crate::validate::study::Study;
 pub use gates::GateLine;
 pub use index::index_page;
 pub use scenes::{SceneEvidence, scenes_page};
+pub use surfaces::{SurfaceEvidence, surfaces_page};
 
 /// Everything a page of an effect is made of.
 #[derive(Debug, Clone, Copy)]

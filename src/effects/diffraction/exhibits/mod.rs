@@ -56,7 +56,11 @@ fn number(value: f64) -> ExhibitCell {
     ExhibitCell::Number(value)
 }
 
-fn table(caption: &str, columns: &[(&str, &'static str)], rows: Vec<Vec<ExhibitCell>>) -> ExhibitTable {
+fn table(
+    caption: &str,
+    columns: &[(&str, &'static str)],
+    rows: Vec<Vec<ExhibitCell>>,
+) -> ExhibitTable {
     ExhibitTable {
         caption: caption.into(),
         columns: columns.iter().map(|(name, unit)| ((*name).to_owned(), *unit)).collect(),

@@ -1,0 +1,85 @@
+//! Maps of radiance over the sphere, and their convolution with a diffraction kernel
+//! (toisoul2017 §3.2, §4.3 and §5).
+//!
+//! # Symbols
+//!
+//! | symbol | here | unit | meaning |
+//! |---|---|---|---|
+//! | ω_i, ω_o | | 1 | directions of light and of view, unit |
+//! | r_v | `outwards` | 1 | ω_o mirrored in the surface |
+//! | h | `h_x`, `h_y` | 1 | ω_i + ω_o projected on the surface, not normalised |
+//! | S_d | table | sr⁻¹ | energy per area of direction cosines, 1 in total for a lossless surface |
+//! | G | | 1 | (1 + ω_i·ω_o)²/((n·ω_i)(n·ω_o)), Stam's factor |
+//! | F₀ | | 1 | amplitude reflectance at normal incidence, applied by the surface |
+//!
+//! # What is summed
+//!
+//! With S_d as above eq. 3 reads L = F₀² ∫ G/4 · S_d(h) L_i (n·ω_i) dω_i: the quarter makes G 1 at
+//! normal incidence, where the table is made. Under n = ω_o = r_v the direction of light with the
+//! projection h is (h_x, h_y, c), c = √(1 − |h|²), and dω_i = dh_x dh_y / c. So
+//!
+//! L = F₀² ∫∫ ((1 + c)/2)² S_d(h) L_i(h_x, h_y, c) dh_x dh_y / c.
+//!
+//! The sum of eq. 6 and 7 has no 1/c and no area of a cell, and the pseudo-code divides by the
+//! largest sum of weights in their place; neither is needed.
+//!
+//! # Why two passes are exact on the sphere
+//!
+//! A pass moves a direction by an angle along a great circle. Moved by s₂ along the meridian and then
+//! by s₁ to the east, r goes to sin s₁ e + cos s₁ (sin s₂ n + cos s₂ r): the projection on the frame
+//! (e, n) of r is h = (sin s₁, cos s₁ sin s₂), because the east stays the same along a meridian.
+//! Tabulated over the two angles, with their Jacobian cos s₁ in place of 1/c, a kernel of rank r is
+//! convolved by r pairs of passes exactly; over h_x and h_y it would not be. What is left is the
+//! interpolation of the map between the passes.
+
+mod azimuthal;
+mod kernel;
+mod passes;
+mod taps;
+
+pub use azimuthal::AzimuthalOperator;
+pub use kernel::AngularKernel;
+pub(in crate::render) use passes::kernel;
+pub use passes::{TimedPass, convolved, looked_up, turned};
+pub use taps::Taps;
+
+use crate::measured::environment::Environment;
+
+/// R, G, B over the sphere, laid out as an [`Environment`]; values may be negative.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SphereMap {
+    /// Texels around.
+    pub width: usize,
+    /// Texels from zenith to nadir.
+    pub height: usize,
+    /// Three numbers per texel, row by row.
+    pub rgb: Vec<f32>,
+}
+
+impl From<&Environment> for SphereMap {
+    fn from(environment: &Environment) -> Self {
+        Self {
+            width: environment.width,
+            height: environment.height,
+            rgb: environment.radiance.as_flattened().to_vec(),
+        }
+    }
+}
+
+impl SphereMap {
+    /// Columns of the texels' places, `first` and `layer` as [`passes`] take them.
+    fn places(&self) -> [Vec<f32>; 2] {
+        let texels = 0..self.width * self.height;
+        let column = texels.clone().map(|at| (at % self.width) as f32).collect();
+        [column, texels.map(|at| (at / self.width) as f32).collect()]
+    }
+
+    /// A map of the same size.
+    fn with(&self, columns: &[Vec<f32>]) -> Self {
+        let mut rgb = Vec::with_capacity(self.rgb.len());
+        for at in 0..self.width * self.height {
+            rgb.extend(columns.iter().map(|column| column.get(at).copied().unwrap_or(f32::NAN)));
+        }
+        Self { rgb, ..*self }
+    }
+}

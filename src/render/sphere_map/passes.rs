@@ -1,0 +1,172 @@
+//! Passes over a map: turned, convolved, looked up, on the device or on CPU lanes from one text.
+
+use std::sync::Arc;
+
+use super::{SphereMap, Taps};
+use crate::form::{DataTable, Form};
+use crate::render::RenderError;
+use crate::render::backend::{Backend, Painter};
+use crate::render::kernel::Kernel;
+
+/// The text of all passes.
+pub(in crate::render) const TEXT: &str = include_str!("sphere_map.wgsl");
+/// The file of that text.
+const FILE: &str = "src/render/sphere_map/sphere_map.wgsl";
+/// Most taps of one evaluation.
+const MOST_TAPS: usize = 1024;
+/// No turn.
+const STILL: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// A kernel with the points of one pass, for timing.
+#[derive(Debug, Clone)]
+pub struct TimedPass {
+    pub(in crate::render) kernel: Kernel,
+    /// Some points, as columns.
+    pub(in crate::render) inputs: Vec<Vec<f32>>,
+    /// Evaluations of the whole pass.
+    pub(in crate::render) evaluations: usize,
+}
+
+/// A kernel over `layers`, which have one size.
+pub(in crate::render) fn kernel(
+    text: &str,
+    file: &str,
+    function: &str,
+    layers: &[SphereMap],
+    taps: &Taps,
+    per_evaluation: usize,
+    turn: [[f64; 3]; 3],
+) -> Result<Kernel, RenderError> {
+    let (width, height) = layers.first().map_or((2, 1), |layer| (layer.width, layer.height));
+    let maps: Vec<f32> = layers.iter().flat_map(|layer| layer.rgb.iter().copied()).collect();
+    let none = [0.0_f32; Taps::WIDTH];
+    let numbers: Arc<[f32]> = if taps.count() == 0 { none.into() } else { taps.numbers().into() };
+    let tables = vec![DataTable::new("environment", maps), DataTable::new("taps", numbers)];
+    let form = Form::parse_with(file, text, function, tables)?;
+    let value = |name: &str| match name {
+        "width" => width as f32,
+        "height" => height as f32,
+        "tap_count" => taps.count() as f32,
+        "tap_block" => per_evaluation as f32,
+        turn_name => {
+            let place = |axis: Option<char>| "xyz".find(axis.unwrap_or('x')).unwrap_or(0);
+            let mut axes = turn_name.chars().rev();
+            let (column, row) = (place(axes.next()), place(axes.next()));
+            turn[row][column] as f32
+        }
+    };
+    let constants = form.parameters().iter().map(|parameter| value(&parameter.name)).collect();
+    Ok(Kernel { form, constants })
+}
+
+/// The map whose value at d is that of `map` at R d; `turn` holds the rows of R.
+///
+/// # Errors
+/// [`RenderError`] if the kernel does not compile or the device fails.
+pub fn turned(
+    map: &SphereMap,
+    turn: [[f64; 3]; 3],
+    backend: Backend<'_>,
+) -> Result<SphereMap, RenderError> {
+    let kernel =
+        kernel(TEXT, FILE, "turned", std::slice::from_ref(map), &Taps::default(), 1, turn)?;
+    Ok(map.with(&Painter::new(&[kernel], backend)?.colours(&map.places())?))
+}
+
+/// Values of the map in directions given as columns x, y, z; columns R, G, B.
+///
+/// # Errors
+/// As [`turned`].
+pub fn looked_up(
+    map: &SphereMap,
+    directions: &[Vec<f32>],
+    backend: Backend<'_>,
+) -> Result<Vec<Vec<f32>>, RenderError> {
+    let layer = std::slice::from_ref(map);
+    let kernel = kernel(TEXT, FILE, "seen", layer, &Taps::default(), 1, STILL)?;
+    Painter::new(&[kernel], backend)?.colours(directions)
+}
+
+/// Every layer with its own list of taps, one result per layer. A single layer may take several
+/// lists, each with a result of its own.
+///
+/// # Errors
+/// As [`turned`].
+pub fn convolved(
+    layers: &[SphereMap],
+    lists: &[Taps],
+    backend: Backend<'_>,
+) -> Result<Vec<SphereMap>, RenderError> {
+    let Some(map) = layers.first() else { return Ok(Vec::new()) };
+    let plan = Plan::new(layers, lists);
+    let kernels = [plan.kernel(layers)?];
+    let painter = Painter::new(&kernels, backend)?;
+    let [column, row] = map.places();
+    let texels = column.len();
+    let mut results = Vec::with_capacity(lists.len());
+    for blocks in &plan.blocks {
+        let mut sums = vec![vec![0.0_f32; texels]; 3];
+        for (first, layer) in blocks {
+            let inputs = [column.clone(), row.clone(), vec![*first; texels], vec![*layer; texels]];
+            let values = painter.colours(&inputs)?;
+            for (sum, column) in sums.iter_mut().zip(values) {
+                sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += value);
+            }
+        }
+        results.push(map.with(&sums));
+    }
+    Ok(results)
+}
+
+impl TimedPass {
+    /// The pass that [`convolved`] makes, at every `stride`th texel of the first block.
+    ///
+    /// # Errors
+    /// As [`turned`].
+    pub fn convolved(layers: &[SphereMap], lists: &[Taps]) -> Result<Self, RenderError> {
+        let plan = Plan::new(layers, lists);
+        let texels = layers.first().map_or(0, |map| map.width * map.height);
+        let map =
+            layers.first().cloned().unwrap_or(SphereMap { width: 2, height: 1, rgb: vec![0.0; 6] });
+        let [column, row] = map.places();
+        let count = column.len();
+        let blocks = plan.blocks.iter().map(Vec::len).sum::<usize>();
+        Ok(Self {
+            kernel: plan.kernel(layers)?,
+            inputs: vec![column, row, vec![0.0; count], vec![0.0; count]],
+            evaluations: texels * blocks,
+        })
+    }
+}
+
+/// How lists of taps are laid out: padded to whole blocks, so that a block belongs to one list.
+struct Plan {
+    taps: Taps,
+    per_evaluation: usize,
+    /// Per list: first tap and layer of each block.
+    blocks: Vec<Vec<(f32, f32)>>,
+}
+
+impl Plan {
+    fn new(layers: &[SphereMap], lists: &[Taps]) -> Self {
+        let longest = lists.iter().map(Taps::count).max().unwrap_or(0);
+        let per_evaluation = longest.clamp(1, MOST_TAPS);
+        let mut taps = Taps::default();
+        let mut blocks = Vec::with_capacity(lists.len());
+        for (at, list) in lists.iter().enumerate() {
+            let begin = taps.count();
+            taps.extend(list);
+            while taps.count() % per_evaluation != 0 {
+                taps.push([0.0, 0.0, 1.0], [0.0; 3]);
+            }
+            let layer = at.min(layers.len().saturating_sub(1)) as f32;
+            let firsts = (begin..taps.count()).step_by(per_evaluation);
+            blocks.push(firsts.map(|first| (first as f32, layer)).collect());
+        }
+        Self { taps, per_evaluation, blocks }
+    }
+
+    fn kernel(&self, layers: &[SphereMap]) -> Result<Kernel, RenderError> {
+        kernel(TEXT, FILE, "convolved", layers, &self.taps, self.per_evaluation, STILL)
+    }
+}

@@ -1,0 +1,66 @@
+//! Eq. 3 of toisoul2017 in f64: the reference of what is summed on the device.
+
+use std::f64::consts::PI;
+
+use rayon::prelude::*;
+
+use super::shape::Point;
+use crate::render::sphere_map::{SphereMap, Taps};
+
+/// Radiance R, G, B at each point, for F₀ = 1.
+///
+/// `taps`: displacement along the two directions of a point, width of the cell, and the table times
+/// the area of the cell. The sum over cells of ((1 + ω_i·ω_o)²/4)/((n·ω_o) μ_i), with the mean of
+/// 1/μ_i over the ring of each cell; what lies beyond the horizon is left out. Bilinear in `map`.
+pub fn integrals(map: &SphereMap, points: &[Point], taps: &Taps) -> Vec<[f64; 3]> {
+    points.par_iter().map(|point| integral(map, point, taps)).collect()
+}
+
+fn integral(map: &SphereMap, point: &Point, taps: &Taps) -> [f64; 3] {
+    let beside = point.normal.cross(&point.along);
+    let mu_o = point.reflection.dot(&point.normal).max(1e-4);
+    let mirror = [point.reflection.dot(&point.along), point.reflection.dot(&beside)];
+    let mut sum = [0.0; 3];
+    for ([along, across, cell], weight) in taps.iter() {
+        let (u, v) = (mirror[0] + along, mirror[1] + across);
+        let radius = u.hypot(v);
+        if radius >= 1.0 {
+            continue;
+        }
+        let (inner, outer) = ((radius - 0.5 * cell).max(0.0), (radius + 0.5 * cell).min(1.0));
+        let per_mu = 2.0 / ((1.0 - inner * inner).sqrt() + (1.0 - outer * outer).sqrt());
+        let mu_i = (1.0 - radius * radius).sqrt();
+        let cosine = mu_o * mu_i - mirror[0] * u - mirror[1] * v;
+        let factor = 0.25 * (1.0 + cosine) * (1.0 + cosine) / mu_o * per_mu;
+        let incident = point.along * u + beside * v + point.normal * mu_i;
+        let radiance = looked_up(map, [incident.x, incident.y, incident.z]);
+        for ((sum, weight), radiance) in sum.iter_mut().zip(weight).zip(radiance) {
+            *sum += weight * factor * radiance;
+        }
+    }
+    sum
+}
+
+/// Bilinear between texel centres; beyond a pole it goes on down the other side.
+fn looked_up(map: &SphereMap, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let (width, height) = (map.width as i64, map.height as i64);
+    let column = y.atan2(x) * width as f64 / (2.0 * PI) - 0.5;
+    let row = x.hypot(y).atan2(z) * height as f64 / PI - 0.5;
+    let (left, top) = (column.floor(), row.floor());
+    let (u, v) = (column - left, row - top);
+    let mut sum = [0.0; 3];
+    for (dx, dy, share) in
+        [(0, 0, (1.0 - u) * (1.0 - v)), (1, 0, u * (1.0 - v)), (0, 1, (1.0 - u) * v), (1, 1, u * v)]
+    {
+        let (mut column, mut row) = (left as i64 + dx, top as i64 + dy);
+        if row < 0 || row >= height {
+            row = if row < 0 { -1 - row } else { 2 * height - 1 - row };
+            column += width / 2;
+        }
+        let at = 3 * (row * width + column.rem_euclid(width)) as usize;
+        for (sum, value) in sum.iter_mut().zip(map.rgb.get(at..at + 3).unwrap_or_default()) {
+            *sum += share * f64::from(*value);
+        }
+    }
+    sum
+}

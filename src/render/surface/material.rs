@@ -1,0 +1,145 @@
+//! The table of a scene and what is made of it before anything is rendered.
+
+use crate::effects::diffraction;
+use crate::fit::low_rank::{
+    Alignment, ConvolutionNorm, ConvolvedOptions, Decomposition, LowRank, NormOptions,
+    SearchOptions, convolved, directional, main_directions,
+};
+use crate::measured::environment::Environment;
+use crate::measured::spectra::Spectra;
+use crate::render::RenderError;
+use crate::render::sphere_map::{AngularKernel, Taps};
+use crate::table::{Axis, Grid};
+
+use super::scene::{Factors, SurfaceScene, TableSource};
+use super::sums::{line_taps, table_taps};
+
+/// Share of |S| that sums over a reconstructed table leave out.
+const LEFT_OUT: f64 = 1e-3;
+/// Half width of a line of the sum of directional blurs, in texels of the table.
+const LINE_HALF_WIDTH: f64 = 4.0;
+
+/// A diffraction table with its kernels.
+#[derive(Debug, Clone)]
+pub struct Material {
+    /// S_d over h_x and h_y, channels R, G, B.
+    pub table: Grid,
+    /// Directions along which it is factorised.
+    pub alignment: Alignment,
+    /// It over the angles of the passes.
+    pub kernel: AngularKernel,
+    decomposition: Decomposition,
+    seen: Vec<Environment>,
+}
+
+impl Material {
+    /// Reads or simulates the table of `scene`; `seen` are the environments for factors of least
+    /// error after convolution.
+    ///
+    /// # Errors
+    /// [`RenderError`]: a table that does not load or has other axes or channels, settings that the
+    /// simulator refuses, or one that cannot be factorised.
+    pub fn new(
+        scene: &SurfaceScene,
+        spectra: &Spectra,
+        seen: Vec<Environment>,
+    ) -> Result<Self, RenderError> {
+        let table = table(&scene.table, spectra)?;
+        let alignment = if scene.convolution.align {
+            main_directions(&table, &SearchOptions::default())?.alignment
+        } else {
+            Alignment::identity()
+        };
+        let kernel = AngularKernel::new(&table, &alignment);
+        let decomposition = Decomposition::of_aligned(&kernel.grid, alignment)?;
+        Ok(Self { table, alignment, kernel, decomposition, seen })
+    }
+
+    /// Factors of the kernel.
+    ///
+    /// # Errors
+    /// [`RenderError::LowRank`]: a rank above that of the table, environments without light.
+    pub fn factors(&self, rank: usize, factors: Factors) -> Result<LowRank, RenderError> {
+        if factors == Factors::Svd {
+            return Ok(self.decomposition.low_rank(rank)?);
+        }
+        let grid = &self.kernel.grid;
+        let options = NormOptions { alignment: self.alignment, ..NormOptions::default() };
+        let norm = ConvolutionNorm::from_environments(&self.seen, &grid.x, &grid.y, &options)?;
+        let fitted = convolved(grid, self.alignment, rank, &norm, &ConvolvedOptions::default())?;
+        Ok(fitted.0)
+    }
+
+    /// The taps of two directional blurs over a map: the kernel integrated across its two axes.
+    ///
+    /// # Errors
+    /// As [`directional`].
+    pub fn blurs(&self) -> Result<Taps, RenderError> {
+        let axes = [[1.0, 0.0], [0.0, 1.0]];
+        let width = LINE_HALF_WIDTH * step(&self.kernel.grid.x);
+        let lines = directional(&self.kernel.grid, &axes, width)?;
+        let mut taps = Taps::default();
+        for (kernel, direction) in lines.kernels.iter().zip(self.kernel.directions) {
+            let step = step(&kernel.axis);
+            for at in 0..kernel.axis.count {
+                let (sin, cos) = kernel.axis.centre(at).sin_cos();
+                let weight = [0, 1, 2].map(|channel| {
+                    let values = kernel.channels.get(channel).map(|(_, values)| values);
+                    values.and_then(|values| values.get(at)).map_or(0.0, |value| value * step)
+                });
+                taps.push([sin * direction[0], sin * direction[1], cos], weight);
+            }
+        }
+        Ok(taps)
+    }
+
+    /// The taps of one blur along the first direction of a surface: the table integrated across it.
+    ///
+    /// # Errors
+    /// As [`directional`].
+    pub fn line(&self) -> Result<Taps, RenderError> {
+        let lines = directional(&self.table, &[[1.0, 0.0]], f64::INFINITY)?;
+        Ok(line_taps(&lines.kernels))
+    }
+
+    /// The taps of eq. 3 with the table that factors of rank `rank` of it give.
+    ///
+    /// # Errors
+    /// [`RenderError::LowRank`]: a rank above that of the table.
+    pub fn reconstructed(&self, rank: usize) -> Result<Taps, RenderError> {
+        let factors = Decomposition::of(&self.table)?.low_rank(rank)?;
+        let taps = table_taps(&factors.to_grid(&self.table.x, &self.table.y)?);
+        Ok(taps.thinned(LEFT_OUT).0)
+    }
+}
+
+fn step(axis: &Axis) -> f64 {
+    ((axis.to - axis.from) / axis.count as f64).abs()
+}
+
+/// Reads or simulates a table and checks its axes and channels.
+fn table(source: &TableSource, spectra: &Spectra) -> Result<Grid, RenderError> {
+    let grid = match source {
+        TableSource::File(path) => {
+            Grid::read_exr(path).map_err(crate::measured::MeasuredError::from)?
+        }
+        TableSource::Simulated(settings) => {
+            let refused =
+                |error: &dyn std::fmt::Display| RenderError::Simulation(error.to_string());
+            let settings = diffraction::settings(settings).map_err(|error| refused(&error))?;
+            diffraction::simulated_table(&settings, spectra).map_err(|error| refused(&error))?
+        }
+    };
+    for (axis, name) in [(&grid.x, "h_x"), (&grid.y, "h_y")] {
+        if axis.name != name || axis.unit != "1" {
+            return Err(RenderError::Simulation(format!(
+                "{}: expected an axis {name} [1], got {} [{}]",
+                grid.origin, axis.name, axis.unit
+            )));
+        }
+    }
+    for channel in ["R", "G", "B"] {
+        grid.require(channel).map_err(crate::measured::MeasuredError::from)?;
+    }
+    Ok(grid)
+}
