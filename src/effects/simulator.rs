@@ -219,9 +219,8 @@ mod tests {
 
     #[test]
     fn refusals_name_the_key_and_what_is_known() {
-        let refused = |texts: &[&str]| {
-            Settings::parse(PARAMETERS, texts).expect_err("a refusal").to_string()
-        };
+        let refused =
+            |texts: &[&str]| Settings::parse(PARAMETERS, texts).expect_err("a refusal").to_string();
         assert!(refused(&["size"]).contains("key=value"));
         assert!(refused(&["=1"]).contains("key=value"));
         assert!(refused(&["sise=1"]).contains("known: size, window"));

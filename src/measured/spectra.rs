@@ -77,7 +77,11 @@ impl Spectra {
     /// [`MeasuredError`] naming the file.
     pub fn load(folder: &Path) -> Result<Self, MeasuredError> {
         let read = |name| Table::read_csv(folder.join(name));
-        Self::of(&read("cie1931_xyz.csv")?, &read("illuminant_d65.csv")?, &read("illuminant_a.csv")?)
+        Self::of(
+            &read("cie1931_xyz.csv")?,
+            &read("illuminant_d65.csv")?,
+            &read("illuminant_a.csv")?,
+        )
     }
 
     /// The same files as they were when the crate was built.
@@ -87,9 +91,18 @@ impl Spectra {
     pub fn built_in() -> Result<Self, MeasuredError> {
         let read = Table::read_csv_str;
         Self::of(
-            &read("built-in cie1931_xyz.csv", include_str!("../../data/measured/spectra/cie1931_xyz.csv"))?,
-            &read("built-in illuminant_d65.csv", include_str!("../../data/measured/spectra/illuminant_d65.csv"))?,
-            &read("built-in illuminant_a.csv", include_str!("../../data/measured/spectra/illuminant_a.csv"))?,
+            &read(
+                "built-in cie1931_xyz.csv",
+                include_str!("../../data/measured/spectra/cie1931_xyz.csv"),
+            )?,
+            &read(
+                "built-in illuminant_d65.csv",
+                include_str!("../../data/measured/spectra/illuminant_d65.csv"),
+            )?,
+            &read(
+                "built-in illuminant_a.csv",
+                include_str!("../../data/measured/spectra/illuminant_a.csv"),
+            )?,
         )
     }
 

@@ -18,9 +18,9 @@ use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
 
+use super::DiffractionError;
 use super::preparation::{MOST_SAMPLES, PreparedSurface};
 use super::resample::Cells;
-use super::DiffractionError;
 
 /// Power over cells of spatial frequency.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,7 +128,11 @@ impl FarField {
         let rows = self.power.chunks(self.x.count.max(1)).enumerate();
         let kept = rows.flat_map(|(y, row)| {
             let fy = self.y.centre(y);
-            row.iter().zip(&fx).filter(|(_, fx)| inside(**fx, fy)).map(|(p, _)| *p).collect::<Vec<_>>()
+            row.iter()
+                .zip(&fx)
+                .filter(|(_, fx)| inside(**fx, fy))
+                .map(|(p, _)| *p)
+                .collect::<Vec<_>>()
         });
         crate::numeric::statistics::sum(kept)
     }

@@ -70,7 +70,12 @@ fn one_wavelength(spectra: &Spectra) -> Result<Finding, DiffractionError> {
         percent(deep.square),
         percent(deep.fourth)
     );
-    Ok(finding("toisoul2017 eq. 2", "S_d = ∫ I(2πh/λ) P/λ² dλ from one wavelength", found, "differs"))
+    Ok(finding(
+        "toisoul2017 eq. 2",
+        "S_d = ∫ I(2πh/λ) P/λ² dλ from one wavelength",
+        found,
+        "differs",
+    ))
 }
 
 fn jacobian(_: &Spectra) -> Result<Finding, DiffractionError> {
@@ -169,7 +174,12 @@ fn cross_terms(spectra: &Spectra) -> Result<Finding, DiffractionError> {
         error(2),
         error(3)
     );
-    Ok(finding("toisoul2017 eq. 10, 11", "Σ_m f_v(h_k, h_m) Σ_l Σ_n f_h(h_n, h_l)", found, "does not hold"))
+    Ok(finding(
+        "toisoul2017 eq. 10, 11",
+        "Σ_m f_v(h_k, h_m) Σ_l Σ_n f_h(h_n, h_l)",
+        found,
+        "does not hold",
+    ))
 }
 
 fn fresnel(_: &Spectra) -> Result<Finding, DiffractionError> {

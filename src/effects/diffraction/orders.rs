@@ -12,11 +12,11 @@
 use nalgebra::{Matrix3, Vector3};
 use rustfft::num_complex::Complex64;
 
+use super::DiffractionError;
 use super::far_field::{FarField, Transform};
 use super::preparation::PreparedSurface;
 use super::reference::sinusoid_order_power;
 use super::table::at_wavelength;
-use super::DiffractionError;
 use crate::effects::registry::DomainError;
 use crate::numeric::statistics;
 
@@ -51,8 +51,7 @@ pub fn fundamental(surface: &PreparedSurface) -> Result<Option<[f64; 2]>, Diffra
         for (x, power) in row.iter().enumerate() {
             let f = [field.x.centre(x), field.y.centre(y)];
             // The window's main lobe around 0 spans two cells; one of each pair ±f is enough.
-            let away =
-                beyond_dc(f[0], field.x.pitch) > 2.5 || beyond_dc(f[1], field.y.pitch) > 2.5;
+            let away = beyond_dc(f[0], field.x.pitch) > 2.5 || beyond_dc(f[1], field.y.pitch) > 2.5;
             let half = f[0] > 0.0 || (f[0] == 0.0 && f[1] > 0.0);
             if away && half && *power > best.0 {
                 best = (*power, f);
@@ -82,7 +81,8 @@ fn refined(
             .collect()
     };
     let power = |f: [f64; 2]| {
-        let (x, y) = (phasors(surface.nx, surface.dx_um, f[0]), phasors(surface.ny, surface.dy_um, f[1]));
+        let (x, y) =
+            (phasors(surface.nx, surface.dx_um, f[0]), phasors(surface.ny, surface.dy_um, f[1]));
         let rows = screen.chunks(surface.nx).zip(&y);
         let sum: Complex64 = rows
             .map(|(row, y)| y * row.iter().zip(&x).map(|(h, x)| x * h).sum::<Complex64>())
@@ -228,7 +228,7 @@ pub fn orders(
     let along = |fx: f64, fy: f64| (fx * frequency[0] + fy * frequency[1]) / (length * length);
     let mut found = Vec::new();
     for order in -most..=most {
-        let predicted = frequency.map(|f| f64::from(order) * wavelength_um * f);
+        let predicted = frequency.map(|f| f64::from(order) * wavelength_um * f + 0.0);
         if predicted.iter().zip(reach).any(|(h, r)| h.abs() + r > extent) {
             continue;
         }

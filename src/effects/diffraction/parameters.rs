@@ -20,12 +20,27 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         "simulated surface: compact_disc, sinusoid, rectangle, blazed, display, phone, \
          holographic_paper",
     ),
-    parameter("heightmap", "", "", "measured heights: FILE.f32 with FILE.json, instead of a surface"),
+    parameter(
+        "heightmap",
+        "",
+        "",
+        "measured heights: FILE.f32 with FILE.json, instead of a surface",
+    ),
     parameter("pattern", "", "", "PNG of a pattern at one wavelength, instead of a surface"),
     parameter("size", "1", "257", "texels per side of the table; odd puts h = 0 into one texel"),
-    parameter("extent", "1", "", "the table spans [-extent, extent] in h; 0.15 for screens, else 1"),
+    parameter(
+        "extent",
+        "1",
+        "",
+        "the table spans [-extent, extent] in h; 0.15 for screens, else 1",
+    ),
     parameter("channels", "", "rgb", "rgb, or spectral: one channel per wavelength"),
-    parameter("illuminant", "", "d65", "light of an RGB table: d65, a, e or a CSV of wavelength, power"),
+    parameter(
+        "illuminant",
+        "",
+        "d65",
+        "light of an RGB table: d65, a, e or a CSV of wavelength, power",
+    ),
     parameter("wavelengths_nm", "nm", "380:780:10", "from:to:step, or a list with commas"),
     parameter("window", "", "hann", "weights over the patch: hann, tukey, none"),
     parameter("detrend", "", "plane", "taken off the heights: plane, piston, none"),
@@ -50,6 +65,11 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     parameter("spread_deg", "deg", "12", "largest angle of paper's gratings from x or y"),
     parameter("wavelength_nm", "nm", "", "wavelength of a pattern"),
     parameter("pattern_extent", "1", "", "|h| at the left and right edge of a pattern"),
-    parameter("pattern_centre_px", "px", "", "x,y of the mirror direction in a pattern; its middle"),
+    parameter(
+        "pattern_centre_px",
+        "px",
+        "",
+        "x,y of the mirror direction in a pattern; its middle",
+    ),
     parameter("exponent", "1", "2", "a pattern scales as (lambda_0/lambda)^exponent; 4 if shallow"),
 ];

@@ -67,11 +67,7 @@ fn within(
     expected: &'static str,
     most: f64,
 ) -> Result<(), DomainError> {
-    if (0.0..=most).contains(&got) {
-        Ok(())
-    } else {
-        Err(DomainError { quantity, expected, got })
-    }
+    if (0.0..=most).contains(&got) { Ok(()) } else { Err(DomainError { quantity, expected, got }) }
 }
 
 /// An order given as a number.

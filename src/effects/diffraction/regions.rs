@@ -55,8 +55,16 @@ pub(super) const HARD_CASES: Region = Region {
 };
 
 /// Zeros of J_0 and J_1 and their extrema up to a turn (DLMF §10.21), phases of a disc.
-const SPECIAL: [f64; 8] =
-    [2.404825557695773, 5.520078110286311, 3.831705970207512, 1.8411837813406593, 5.3314427735250325, DISC, 1.0, 3.0];
+const SPECIAL: [f64; 8] = [
+    2.404825557695773,
+    5.520078110286311,
+    3.831705970207512,
+    1.8411837813406593,
+    5.3314427735250325,
+    DISC,
+    1.0,
+    3.0,
+];
 
 /// Phases that have broken implementations.
 pub(super) fn hard_cases() -> Vec<f64> {
@@ -73,8 +81,7 @@ pub(super) fn hard_cases() -> Vec<f64> {
 
 fn points(to: f64, seed: u64) -> Table {
     let mut rng = ChaCha12Rng::seed_from_u64(seed);
-    let mut phases: Vec<f64> =
-        (0..2000).map(|i| to * (f64::from(i) + 0.5) / 2000.0).collect();
+    let mut phases: Vec<f64> = (0..2000).map(|i| to * (f64::from(i) + 0.5) / 2000.0).collect();
     phases.extend((0..1000).map(|_| rng.random_range(0.0..to)));
     phases.extend(hard_cases().into_iter().filter(|phase| *phase <= to));
     table(phases, "spaced and seeded phases")

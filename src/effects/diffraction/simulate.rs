@@ -84,8 +84,7 @@ pub(super) fn w(settings: &Settings) -> Result<f64, SettingsError> {
 
 /// How heights are prepared.
 pub(super) fn preparation(settings: &Settings) -> Result<Preparation, SettingsError> {
-    let windows =
-        [("hann", Window::Hann), ("tukey", Window::Tukey), ("none", Window::Rectangle)];
+    let windows = [("hann", Window::Hann), ("tukey", Window::Tukey), ("none", Window::Rectangle)];
     let trends =
         [("plane", Detrend::Plane), ("piston", Detrend::Piston), ("none", Detrend::Nothing)];
     Ok(Preparation {
@@ -109,25 +108,19 @@ pub(super) fn shape(settings: &Settings) -> Result<TableShape, DiffractionError>
     } else {
         Channels::Spectral
     };
-    Ok(TableShape {
-        size: [size, size],
-        extent,
-        wavelengths_nm: wavelengths(settings)?,
-        channels,
-    })
+    Ok(TableShape { size: [size, size], extent, wavelengths_nm: wavelengths(settings)?, channels })
 }
 
 fn wavelengths(settings: &Settings) -> Result<Vec<f64>, SettingsError> {
     let key = "wavelengths_nm";
     let text = settings.text(key)?;
     let refused = || {
-        settings.refused(key, "from:to:step or a list with commas, increasing, 1 to 1e5, 1000 at most")
+        settings
+            .refused(key, "from:to:step or a list with commas, increasing, 1 to 1e5, 1000 at most")
     };
     let numbers = |separator: char| -> Option<Vec<f64>> {
         let number = |part: &str| part.trim().parse::<f64>().ok();
-        text.split(separator)
-            .map(|part| number(part).filter(|v| (1.0..=1e5).contains(v)))
-            .collect()
+        text.split(separator).map(|part| number(part).filter(|v| (1.0..=1e5).contains(v))).collect()
     };
     let list = if text.contains(':') {
         match numbers(':').ok_or_else(refused)?.as_slice() {

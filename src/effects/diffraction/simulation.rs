@@ -1,18 +1,20 @@
 //! What a simulation says of its table: orders, energies, and what each step of the preparation did.
 
+use super::DiffractionError;
 use super::far_field::{FarField, Transform};
 use super::orders::{fundamental, orders, predicted_power, sinusoid_amplitude};
-use super::preparation::{Detrend, MOST_SAMPLES, Missing, Preparation, PreparedSurface, Window, prepared};
+use super::preparation::{
+    Detrend, MOST_SAMPLES, Missing, Preparation, PreparedSurface, Window, prepared,
+};
 use super::simulate::{Origin, padding, preparation, shape, w};
 use super::steps::{Step, changes};
 use super::table::DiffractionTable;
-use super::DiffractionError;
 use crate::effects::exhibit::{ExhibitCell, ExhibitTable};
 use crate::effects::simulator::{Settings, Simulation};
 use crate::measured::height_map::HeightMap;
 
 /// Share of the heights' variance above which a surface counts as a sinusoid.
-const SINUSOIDAL: f64 = 0.5;
+const SINUSOIDAL: f64 = 0.4;
 /// Highest order that is looked for.
 const MOST_ORDERS: i32 = 3;
 
@@ -36,10 +38,12 @@ pub(super) fn described(
             let transform = Transform::new(&surface, padding(settings)?)?;
             let field = transform.far_field(&surface, wavelength, w(settings)?);
             notes.push(sampling(&surface, &field, size, extent));
-            let hann = prepared(&heights, Preparation { window: Window::Hann, ..preparation(settings)? })?;
+            let hann =
+                prepared(&heights, Preparation { window: Window::Hann, ..preparation(settings)? })?;
             if let Some(frequency) = fundamental(&hann)? {
                 notes.push(zero_order(&field, frequency));
-                let (note, table) = order_table(settings, &surface, &field, frequency, size, extent)?;
+                let (note, table) =
+                    order_table(settings, &surface, &field, frequency, size, extent)?;
                 notes.extend(note);
                 tables.push(table);
             }
@@ -146,16 +150,19 @@ fn order_table(
             if sinusoid.is_some() { "" } else { ": no sinusoid, J_m² does not apply" }
         ));
     }
-    let widths =
-        [surface.nx as f64 * surface.dx_um, surface.ny as f64 * surface.dy_um];
+    let widths = [surface.nx as f64 * surface.dx_um, surface.ny as f64 * surface.dy_um];
     let found = orders(field, frequency, widths, MOST_ORDERS, size, extent);
     let mut rows = Vec::new();
     for order in &found {
         let (power, uncertainty) = match sinusoid {
             Some(a) => {
                 let phase = (phase_per_nm * a.nm).min(20.0);
-                predicted_power(order.order.unsigned_abs(), phase, phase_per_nm * a.standard_error_nm)
-                    .map_or((f64::NAN, f64::NAN), |p| p)
+                predicted_power(
+                    order.order.unsigned_abs(),
+                    phase,
+                    phase_per_nm * a.standard_error_nm,
+                )
+                .map_or((f64::NAN, f64::NAN), |p| p)
             }
             None => (f64::NAN, f64::NAN),
         };

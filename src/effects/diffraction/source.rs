@@ -60,6 +60,7 @@ pub(super) fn pattern(path: &Path) -> Result<Pattern, DiffractionError> {
     };
     let (width, height) = (picture.width() as usize, picture.height() as usize);
     let pixels = picture.as_raw().chunks_exact(3);
-    let intensity = pixels.map(|p| p.iter().map(|code| decoded(*code)).sum::<f64>() / 3.0).collect();
+    let intensity =
+        pixels.map(|p| p.iter().map(|code| decoded(*code)).sum::<f64>() / 3.0).collect();
     Ok(Pattern { width, height, intensity, origin })
 }

@@ -1,9 +1,9 @@
 //! What each step of the preparation does to a table, as numbers.
 
+use super::DiffractionError;
 use super::far_field::{FarField, Transform};
 use super::preparation::{Preparation, prepared};
 use super::table::at_wavelength;
-use super::DiffractionError;
 use crate::effects::exhibit::{ExhibitCell, ExhibitTable};
 use crate::measured::height_map::HeightMap;
 

@@ -7,11 +7,11 @@
 
 use rayon::prelude::*;
 
+use super::DiffractionError;
 use super::far_field::{FarField, Transform};
 use super::illuminant::Illuminant;
 use super::preparation::PreparedSurface;
 use super::resample::{Cells, gathered};
-use super::DiffractionError;
 use crate::measured::pattern::Pattern;
 use crate::measured::spectra::Spectra;
 use crate::table::{Axis, Channel, Grid, MAX_PIXEL_BYTES};
@@ -183,7 +183,7 @@ pub fn of_pattern(
     }
     let power: Vec<f64> = pattern.intensity.iter().map(|i| i / total).collect();
     let pitch = 2.0 * placing.half_extent / pattern.width as f64;
-    let cells = |count: usize, centre: f64| Cells { count, from: -centre * pitch, pitch };
+    let cells = |count: usize, centre: f64| Cells { count, first: -centre, pitch };
     let (cells_x, cells_y) =
         (cells(pattern.width, placing.centre[0]), cells(pattern.height, placing.centre[1]));
     let [x, y] = shape.axes();

@@ -1,10 +1,12 @@
 //! Surfaces that the exhibits share.
 
-use crate::effects::diffraction::preparation::{Preparation, PreparedSurface, USUAL, Window, prepared};
+use crate::effects::diffraction::DiffractionError;
+use crate::effects::diffraction::preparation::{
+    Preparation, PreparedSurface, USUAL, Window, prepared,
+};
 use crate::effects::diffraction::surfaces::{
     CompactDisc, Grating, Patch, Profile, compact_disc, grating,
 };
-use crate::effects::diffraction::DiffractionError;
 
 /// One row across 32 periods of a grating, sampled 64 times each, without a window: every order falls on a
 /// cell of the transform.

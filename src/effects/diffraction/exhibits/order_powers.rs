@@ -64,7 +64,8 @@ pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
         plots: vec![ExhibitPlot {
             stem: "diffraction-orders",
             title: "Sinusoidal relief".into(),
-            caption: "Share of the power in order m over the amplitude of the phase a = k w b.".into(),
+            caption: "Share of the power in order m over the amplitude of the phase a = k w b."
+                .into(),
             x: ExhibitAxis { label: "amplitude of the phase a", unit: "rad", log: false },
             y: ExhibitAxis { label: "power", unit: "1", log: false },
             series: curves,

@@ -17,7 +17,8 @@ const SIZE: usize = 257;
 /// Values of a channel along h_y = 0 that a logarithm shows: above a millionth of the largest.
 fn section(grid: &Grid, channel: &str) -> Vec<(f64, f64)> {
     let middle = grid.y.count / 2;
-    let values = (0..grid.x.count).filter_map(|ix| Some((ix, f64::from(grid.at(channel, ix, middle)?))));
+    let values =
+        (0..grid.x.count).filter_map(|ix| Some((ix, f64::from(grid.at(channel, ix, middle)?))));
     let values: Vec<(usize, f64)> = values.collect();
     let largest = values.iter().fold(0.0_f64, |most, (_, v)| most.max(*v));
     let shown = values.into_iter().filter(|(_, v)| *v > 1e-6 * largest);
@@ -38,7 +39,8 @@ pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
         spread: 0.2,
         seed: 1,
     };
-    let blazed = Grating { period_um: 2.0, angle: 0.0, profile: Profile::Blazed { height_nm: 200.0 } };
+    let blazed =
+        Grating { period_um: 2.0, angle: 0.0, profile: Profile::Blazed { height_nm: 200.0 } };
     let surfaces: [(&str, PreparedSurface); 3] = [
         ("disc", disc()?),
         ("blazed", prepared(&grating(blazed, patch), level())?),

@@ -30,12 +30,12 @@ pub struct CompactDisc {
 pub fn compact_disc(disc: CompactDisc, patch: Patch) -> HeightMap {
     let half = 0.5 * patch.side_um;
     let last = (half / disc.pitch_um).ceil() as i64 + 1;
-    let tracks: Vec<Vec<(f64, f64)>> = (-last..=last).map(|track| pits(disc, track, half)).collect();
+    let tracks: Vec<Vec<(f64, f64)>> =
+        (-last..=last).map(|track| pits(disc, track, half)).collect();
     let origin = format!("{disc:?} over {} µm", patch.side_um);
     patch.heights(origin, |x, y| {
         let track = (x / disc.pitch_um).round();
-        let across =
-            coverage(x - track * disc.pitch_um, 0.5 * disc.pit_width_um, patch.pitch_um());
+        let across = coverage(x - track * disc.pitch_um, 0.5 * disc.pit_width_um, patch.pitch_um());
         if across <= 0.0 {
             return 0.0;
         }

@@ -30,13 +30,8 @@ fn a_line_is_one_row() {
 
 #[test]
 fn discs_are_seeded_and_half_of_a_track_is_pit() {
-    let disc = CompactDisc {
-        pitch_um: 1.6,
-        pit_width_um: 0.5,
-        depth_nm: 120.0,
-        bit_um: 0.278,
-        seed: 1,
-    };
+    let disc =
+        CompactDisc { pitch_um: 1.6, pit_width_um: 0.5, depth_nm: 120.0, bit_um: 0.278, seed: 1 };
     let patch = Patch { samples: 512, side_um: 51.2, line: false };
     let map = compact_disc(disc, patch);
     assert_eq!(map, compact_disc(disc, patch));
@@ -49,13 +44,8 @@ fn discs_are_seeded_and_half_of_a_track_is_pit() {
 
 #[test]
 fn pixels_have_the_open_area_that_the_matrix_leaves() {
-    let lattice = PixelLattice {
-        pixel_um: 3.2,
-        matrix_share: 0.2,
-        depth_nm: 100.0,
-        angle: 0.0,
-        skew: 0.0,
-    };
+    let lattice =
+        PixelLattice { pixel_um: 3.2, matrix_share: 0.2, depth_nm: 100.0, angle: 0.0, skew: 0.0 };
     let open = 0.8 * (1.0 - 0.2 / 3.0);
     let share = mean(&pixel_lattice(lattice, PATCH)) / -100.0;
     assert!((share / open - 1.0).abs() < 0.02, "{share} {open}");
