@@ -359,7 +359,8 @@ fn measured_gratings_have_their_orders_where_their_pitch_says() {
         let field = field(&map, USUAL, 2);
         for order in orders(&field, frequency, widths, 3, 257, 1.0) {
             println!("{name} {order:?}");
-            assert!(order.order.abs() > first || order.texels_off < 0.5, "{name}: {order:?}");
+            let judged = (1..=first).contains(&order.order.abs());
+            assert!(!judged || order.texels_off < 0.5, "{name}: {order:?}");
         }
     }
 }

@@ -228,7 +228,7 @@ pub fn orders(
     let along = |fx: f64, fy: f64| (fx * frequency[0] + fy * frequency[1]) / (length * length);
     let mut found = Vec::new();
     for order in -most..=most {
-        let predicted = frequency.map(|f| f64::from(order) * wavelength_um * f);
+        let predicted = frequency.map(|f| f64::from(order) * wavelength_um * f + 0.0);
         if predicted.iter().zip(reach).any(|(h, r)| h.abs() + r > extent) {
             continue;
         }

@@ -1,8 +1,8 @@
 //! Power per cell of one regular grid to power per texel of another, with nothing lost.
 //!
-//! Each cell is taken as uniform and shared out among the texels that it overlaps. Where cells are
-//! finer than texels this integrates over the texel; where they are coarser it interpolates by the
-//! nearest cell, and padding the transform makes them finer.
+//! A cell no wider than a texel is uniform and shared out among the texels that it overlaps: the sum
+//! integrates over the texel. A wider one falls linearly to its neighbours' centres, so that the density
+//! between cells is interpolated linearly, and then integrated over the texel too.
 
 use crate::table::Axis;
 
@@ -11,8 +11,8 @@ use crate::table::Axis;
 pub struct Cells {
     /// Their number.
     pub count: usize,
-    /// Outer edge of the first.
-    pub from: f64,
+    /// Outer edge of the first, in widths: 0 for the cell that begins at 0.
+    pub first: f64,
     /// Width of each.
     pub pitch: f64,
 }
@@ -20,39 +20,50 @@ pub struct Cells {
 impl Cells {
     /// `count` cells in the order of increasing frequency, one of them centred at 0.
     pub fn around_zero(count: usize, pitch: f64) -> Self {
-        Self { count, from: -((count / 2) as f64 + 0.5) * pitch, pitch }
+        Self { count, first: -((count / 2) as f64 + 0.5), pitch }
     }
 
     /// Centre of cell `i`.
     pub fn centre(&self, i: usize) -> f64 {
-        self.from + (i as f64 + 0.5) * self.pitch
+        (self.first + (i as f64 + 0.5)) * self.pitch
     }
 
     /// The same cells in another unit.
     pub fn scaled(&self, factor: f64) -> Self {
-        Self { count: self.count, from: self.from * factor, pitch: self.pitch * factor }
-    }
-
-    /// Outer edge of the last.
-    pub fn to(&self) -> f64 {
-        self.from + self.count as f64 * self.pitch
+        Self { pitch: self.pitch * factor, ..*self }
     }
 }
 
-/// The cells that a texel overlaps, each with the share of the cell that lies inside.
+/// The cells that give to a texel, each with the share of the cell that falls into it.
 struct Overlap {
     first: usize,
     shares: Vec<f64>,
 }
 
+/// Share of a cell's power at less than `t` cells from its centre: a uniform cell.
+fn uniform(t: f64) -> f64 {
+    (t + 0.5).clamp(0.0, 1.0)
+}
+
+/// The same for a cell whose density falls linearly to 0 at its neighbours' centres.
+fn triangular(t: f64) -> f64 {
+    let t = t.clamp(-1.0, 1.0);
+    if t < 0.0 { 0.5 * (1.0 + t) * (1.0 + t) } else { 1.0 - 0.5 * (1.0 - t) * (1.0 - t) }
+}
+
 fn overlaps(cells: Cells, texels: &Axis) -> Vec<Overlap> {
     let width = (texels.to - texels.from) / texels.count as f64;
+    let coarser = cells.pitch > width * (1.0 + 1e-9);
+    let below = if coarser { triangular } else { uniform };
     let overlap = |i: usize| {
-        let (low, high) = (texels.from + i as f64 * width, texels.from + (i as f64 + 1.0) * width);
-        let place = |edge: f64| ((edge - cells.from) / cells.pitch).clamp(0.0, cells.count as f64);
-        let (low, high) = (place(low), place(high));
-        let (first, last) = (low.floor() as usize, (high.ceil() as usize).min(cells.count));
-        let share = |cell: usize| (high.min(cell as f64 + 1.0) - low.max(cell as f64)).max(0.0);
+        let place = |edge: f64| (texels.from + edge * width) / cells.pitch - cells.first;
+        let (low, high) = (place(i as f64), place(i as f64 + 1.0));
+        let within = |cell: f64| cell.clamp(0.0, cells.count as f64) as usize;
+        let (first, last) = (within((low - 1.5).floor()), within((high + 1.5).ceil()));
+        let share = |cell: usize| {
+            let centre = cell as f64 + 0.5;
+            below(high - centre) - below(low - centre)
+        };
         Overlap { first, shares: (first..last).map(share).collect() }
     };
     (0..texels.count).map(overlap).collect()
@@ -65,7 +76,8 @@ pub fn gathered(power: &[f64], x: Cells, y: Cells, to_x: &Axis, to_y: &Axis) -> 
     let mut result = vec![0.0; to_x.count * to_y.count];
     let mut last: Option<(usize, Vec<f64>)> = None;
     for (row, overlap) in result.chunks_mut(to_x.count.max(1)).zip(&along_y) {
-        for (cell, share) in (overlap.first..).zip(&overlap.shares) {
+        let cells = (overlap.first..).zip(&overlap.shares);
+        for (cell, share) in cells.filter(|(_, share)| **share > 0.0) {
             // Neighbouring texels share the cell at their edge.
             let sums = match last.take() {
                 Some((at, sums)) if at == cell => sums,
@@ -125,8 +137,21 @@ mod tests {
     }
 
     #[test]
+    fn wide_cells_are_interpolated() {
+        // A density that is linear in x comes back as such between the outermost centres.
+        let cells = Cells { count: 9, first: 0.0, pitch: 1.0 };
+        let power: Vec<f64> = (0..9).map(|i| f64::from(i) + 0.5).collect();
+        let texels = Axis { from: 1.0, to: 8.0, ..axis(1.0, 28) };
+        let one = Cells { count: 1, first: 0.0, pitch: 1.0 };
+        let whole = Axis { from: 0.0, to: 1.0, ..axis(1.0, 1) };
+        for (i, p) in gathered(&power, cells, one, &texels, &whole).iter().enumerate() {
+            assert!((p / 0.25 - texels.centre(i)).abs() < 1e-12, "{i}: {p}");
+        }
+    }
+
+    #[test]
     fn cells_outside_give_nothing() {
-        let cells = Cells { count: 4, from: 10.0, pitch: 1.0 };
+        let cells = Cells { count: 4, first: 10.0, pitch: 1.0 };
         let texels = axis(1.0, 3);
         assert!(gathered(&[1.0; 16], cells, cells, &texels, &texels).iter().all(|p| *p == 0.0));
     }

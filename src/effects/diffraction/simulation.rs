@@ -14,7 +14,7 @@ use crate::effects::simulator::{Settings, Simulation};
 use crate::measured::height_map::HeightMap;
 
 /// Share of the heights' variance above which a surface counts as a sinusoid.
-const SINUSOIDAL: f64 = 0.5;
+const SINUSOIDAL: f64 = 0.4;
 /// Highest order that is looked for.
 const MOST_ORDERS: i32 = 3;
 

@@ -183,7 +183,7 @@ pub fn of_pattern(
     }
     let power: Vec<f64> = pattern.intensity.iter().map(|i| i / total).collect();
     let pitch = 2.0 * placing.half_extent / pattern.width as f64;
-    let cells = |count: usize, centre: f64| Cells { count, from: -centre * pitch, pitch };
+    let cells = |count: usize, centre: f64| Cells { count, first: -centre, pitch };
     let (cells_x, cells_y) =
         (cells(pattern.width, placing.centre[0]), cells(pattern.height, placing.centre[1]));
     let [x, y] = shape.axes();

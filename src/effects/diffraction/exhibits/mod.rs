@@ -11,7 +11,7 @@ mod wavelengths;
 
 pub(super) use cosine::{fixed_cosine_error, grating_error as cosine_error};
 pub(super) use jacobian::{disc_furnace, mean_over_disc};
-pub(super) use wavelengths::{Rules, rule_errors};
+pub(super) use wavelengths::rule_errors;
 
 use super::DiffractionError;
 use crate::effects::exhibit::{
