@@ -38,7 +38,13 @@ fn texel(column: i32, row: i32, layer: i32) -> vec3<f32> {
         y = 2 * rows - 1 - y;
         x += columns / 2;
     }
-    x = (x + 2 * columns) % columns;
+    // Lookups lie within one turn to either side.
+    if (x < 0) {
+        x += columns;
+    }
+    if (x >= columns) {
+        x -= columns;
+    }
     let at = u32(3 * ((layer * rows + y) * columns + x));
     return vec3<f32>(environment[at], environment[at + 1u], environment[at + 2u]);
 }
