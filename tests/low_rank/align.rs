@@ -28,7 +28,7 @@ fn rotations_and_skews_are_found() {
         [-20.0, 85.0],
     ] {
         let radians = angles.map(f64::to_radians);
-        for table in [display(128, radians, 8.0), cross(128, radians)] {
+        for table in [display(192, radians, 8.0), cross(192, radians)] {
             let clean = error_deg(&table, angles);
             let noise = error_deg(&noisy(table, 0.02, 4), angles);
             worst = [worst[0].max(clean), worst[1].max(noise)];
@@ -38,8 +38,8 @@ fn rotations_and_skews_are_found() {
     assert!(worst[0] < CLEAN_DEG && worst[1] < NOISY_DEG, "{worst:?}");
 }
 
-/// Measured: see the line that the test prints.
-const CLEAN_DEG: f64 = 0.05;
+/// Measured 0.0120 and, the axis at 75° of the cross, 0.0494.
+const CLEAN_DEG: f64 = 0.013;
 const NOISY_DEG: f64 = 0.05;
 
 #[test]
@@ -107,7 +107,7 @@ fn resampling_costs_little_and_nothing_where_nothing_moves() {
 
 #[test]
 fn what_has_no_directions_is_refused() {
-    let zero = rows(&[&[0.0; 8]; 8]);
+    let zero = rows(&[&[0.0f32; 8] as &[f32]; 8]);
     let options = SearchOptions::default();
     assert!(matches!(main_directions(&zero, &options), Err(LowRankError::AllZero { .. })));
     let table = cross(32, [0.0, 1.5]);

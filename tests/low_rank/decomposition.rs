@@ -33,8 +33,9 @@ fn errors_of_every_rank_are_those_of_the_reconstruction() {
                 let kernel = decomposition.low_rank(rank).expect("a rank it has");
                 let (told, direct) =
                     (spectrum.relative_errors[rank], direct_error(&table, &kernel, channel));
-                // Measured 4e-16 at most.
-                assert!((told - direct).abs() < 1e-14, "rank {rank}: {told} against {direct}");
+                // Measured 2e-13 at most, where values below 1e-12 of the largest are taken as
+                // one repeated value; 4e-14 elsewhere.
+                assert!((told - direct).abs() < 1e-12, "rank {rank}: {told} against {direct}");
             }
         }
     }
@@ -64,7 +65,7 @@ fn a_table_of_known_rank_is_given_back_at_it_and_not_below() {
 fn hard_tables() {
     let zero = rows(&[&[0.0; 5], &[0.0; 5], &[0.0; 5]]);
     let spike = rows(&[&[0.0, 0.0, 0.0, 0.0], &[0.0, 0.0, 7.0, 0.0], &[0.0; 4]]);
-    let constant = rows(&[&[2.0; 6]; 4]);
+    let constant = rows(&[&[2.0f32; 6] as &[f32]; 4]);
     for (name, table, rank) in [("zero", zero, 0), ("spike", spike, 1), ("constant", constant, 1)] {
         let decomposition = Decomposition::of(&table).expect("finite");
         let spectrum = decomposition.spectra().next().expect("a channel").clone();
