@@ -28,10 +28,10 @@ pub(super) const LAWS: &[Law] = &[
         violation: |form| excess(form, MOST_IN_FIRST),
         tolerance: 0.001,
         references: FIRST,
-        known_violations: &[
-            ("diffraction/one_first_order", "a^2/4 exceeds it from a = 1.16 and 1 from a = 2"),
-            ("diffraction/one_damped", DAMPED),
-        ],
+        known_violations: &[(
+            "diffraction/one_first_order",
+            "a^2/4 exceeds it from a = 1.16 and 1 from a = 2",
+        )],
     },
     Law {
         name: "flat",
@@ -75,8 +75,6 @@ pub(super) const LAWS: &[Law] = &[
         ],
     },
 ];
-
-const DAMPED: &str = "a^2/4 exp(-c a^2) is 1/(4 e c) at most: above J_1^2 with the fitted c";
 
 fn excess(form: FormValues<'_>, most: f64) -> f64 {
     let mut phases: Vec<f32> = (0..=2000).map(|i| 6.283_185 * i as f32 / 2000.0).collect();

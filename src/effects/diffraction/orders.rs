@@ -20,9 +20,12 @@ use super::table::at_wavelength;
 use crate::effects::registry::DomainError;
 use crate::numeric::statistics;
 
+/// Deviation from the mean below which a surface is flat, nm: rounding of a mean plane.
+const FLAT_NM: f64 = 1e-6;
+
 /// Spatial frequency that the heights have most of, refined between the cells of the transform.
 ///
-/// `None` for heights that are constant. The surface should be windowed, so that leakage does not
+/// `None` for heights that are constant to a millionth of a nanometre. The surface should be windowed, so that leakage does not
 /// pull the maximum.
 ///
 /// # Errors
@@ -36,7 +39,7 @@ pub fn fundamental(surface: &PreparedSurface) -> Result<Option<[f64; 2]>, Diffra
     let screen: Vec<f64> =
         surface.height_nm.iter().zip(&surface.amplitude).map(deviation).collect();
     let largest = screen.iter().fold(0.0_f64, |worst, v| worst.max(v.abs()));
-    if !(largest > 0.0) {
+    if largest < FLAT_NM {
         return Ok(None);
     }
     // The first order of a screen so shallow that its phase is its height.
