@@ -73,7 +73,7 @@ fn under_points_of_light_there_is_little_to_gain() {
         for rank in [1, 3] {
             let [own, held_out, _] = gains(&table, lamps(1), lamps(2), rank);
             println!("lamps, rank {rank}: {own:.3} {held_out:.3}");
-            assert!(own >= 0.0 && own < 0.2, "{own}");
+            assert!((0.0..0.2).contains(&own), "{own}");
         }
     }
 }

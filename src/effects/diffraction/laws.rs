@@ -77,7 +77,8 @@ pub(super) const LAWS: &[Law] = &[
 ];
 
 fn excess(form: FormValues<'_>, most: f64) -> f64 {
-    let mut phases: Vec<f32> = (0..=2000).map(|i| 6.283_185 * i as f32 / 2000.0).collect();
+    let mut phases: Vec<f32> =
+        (0..=2000).map(|i| std::f32::consts::TAU * i as f32 / 2000.0).collect();
     phases.extend(hard_cases().into_iter().map(|phase| phase as f32));
     let count = phases.len();
     let found = form(&[phases]);

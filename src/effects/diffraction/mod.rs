@@ -179,3 +179,6 @@ fn exactly<const N: usize>(point: &[f64]) -> Result<[f64; N], DomainError> {
         got: point.len() as f64,
     })
 }
+
+#[cfg(test)]
+mod tests;

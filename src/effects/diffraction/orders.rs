@@ -186,7 +186,7 @@ fn effective_number(deviations: &[f64], square: f64) -> f64 {
     for lag in 1..n {
         let pairs = deviations.iter().zip(deviations.iter().skip(lag));
         let correlation = pairs.map(|(a, b)| a * b).sum::<f64>() / square;
-        if !(correlation > 0.0) {
+        if correlation.is_nan() || correlation <= 0.0 {
             break;
         }
         inflation += 2.0 * correlation;
@@ -250,7 +250,7 @@ pub fn orders(
                     moment[1] += weight * y.centre(iy);
                 }
             }
-            if !(sum > 0.0) {
+            if sum <= 0.0 {
                 break;
             }
             place = moment.map(|m| m / sum);

@@ -241,13 +241,16 @@ fn roots(a: &Mat<f64>, what: &str) -> Result<(Mat<f64>, Mat<f64>), LowRankError>
     Ok((power(0.5), power(-0.5)))
 }
 
+/// Point, cost and gradient.
+type Evaluated = (DVector<f64>, f64, DVector<f64>);
+
 /// Both sides at once, as argmin sees them: vertical, then horizontal, column by column.
 struct Both<'a> {
     norm: &'a ConvolutionNorm,
     s: &'a Mat<f64>,
     whole: f64,
     rank: usize,
-    last: RefCell<Option<(DVector<f64>, f64, DVector<f64>)>>,
+    last: RefCell<Option<Evaluated>>,
 }
 
 impl Both<'_> {

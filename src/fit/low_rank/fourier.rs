@@ -17,8 +17,8 @@ pub(super) struct Transform {
 /// The smallest length from `least` on without prime factors above 5, which transforms quickly.
 pub(super) fn good_length(least: usize) -> usize {
     let smooth = |mut n: usize| {
-        for p in [2, 3, 5] {
-            while n > 1 && n % p == 0 {
+        for p in [2usize, 3, 5] {
+            while n > 1 && n.is_multiple_of(p) {
                 n /= p;
             }
         }

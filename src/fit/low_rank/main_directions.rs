@@ -9,7 +9,7 @@
 //!
 //! The angles that leave least beyond the first singular value of the aligned table are another
 //! choice, and were tried: they are off by up to 0.27° where round orders stand on skewed lines,
-//! since the shear of a round order is of no low rank, and by up to 0.7° with noise of 2 %.
+//! since the shear of a round order is of no low rank, and by up to 1.2° with noise of 2 %.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

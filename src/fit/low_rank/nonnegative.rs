@@ -57,18 +57,21 @@ pub fn nonnegative(
     Ok(per_channel(table, alignment, rank, fit)?.0)
 }
 
+/// What of a factor has one sign, and its length.
+type Part = (Vec<f64>, f64);
+
 /// NNDSVD: of each singular pair, the positive or the negative parts, whichever product is larger.
 fn positive_parts(start: &Terms) -> Terms {
     let mut terms = start.clone();
     for m in 0..start.rank() {
-        let part = |side: &Mat<f64>, sign: f64| -> (Vec<f64>, f64) {
+        let part = |side: &Mat<f64>, sign: f64| -> Part {
             let part: Vec<f64> = side.col(m).iter().map(|v| (sign * v).max(0.0)).collect();
             let length = part.iter().map(|v| v * v).sum::<f64>().sqrt();
             (part, length)
         };
         let choose = |sign: f64| (part(&start.vertical, sign), part(&start.horizontal, sign));
         let (positive, negative) = (choose(1.0), choose(-1.0));
-        let size = |((_, v), (_, h)): &((Vec<f64>, f64), (Vec<f64>, f64))| v * h;
+        let size = |pair: &(Part, Part)| pair.0.1 * pair.1.1;
         let ((v, v_length), (h, h_length)) =
             if size(&positive) >= size(&negative) { positive } else { negative };
         // Both sides of the pair have the length of its singular value's root, so the lengths of

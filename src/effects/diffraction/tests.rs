@@ -1,0 +1,61 @@
+//! What the effect shows, and what it finds, against the derivations.
+
+use super::EFFECT;
+use super::exhibits::{cosine_error, disc_furnace, mean_over_disc, rule_errors};
+use crate::effects::registry::FittedConstants;
+use crate::measured::spectra::Spectra;
+
+#[test]
+fn findings_are_all_evaluated() {
+    let findings = (EFFECT.findings)(&FittedConstants::default());
+    println!("{findings:#?}");
+    assert_eq!(findings.len(), 7);
+    assert!(findings.iter().all(|f| f.verdict != "not evaluated"));
+    assert!(findings.iter().all(|f| !f.found.contains("NaN")));
+}
+
+#[test]
+fn exhibits_are_complete() {
+    let started = std::time::Instant::now();
+    let exhibits = (EFFECT.exhibits)(&FittedConstants::default()).expect("exhibits");
+    println!("{:?}", started.elapsed());
+    for exhibit in &exhibits {
+        println!("{}\n{:#?}", exhibit.title, exhibit.text);
+        for table in &exhibit.tables {
+            println!("{}\n{:?}", table.caption, table.columns);
+            for row in &table.rows {
+                assert_eq!(row.len(), table.columns.len(), "{}", table.caption);
+                println!("{}", serde_json::to_string(row).expect("plain data"));
+            }
+        }
+    }
+    let plots: Vec<_> = exhibits.iter().flat_map(|e| &e.plots).collect();
+    assert_eq!(plots.len(), 6);
+    for plot in plots {
+        for series in &plot.series {
+            let finite = series.points.iter().all(|(x, y)| x.is_finite() && y.is_finite());
+            let drawn = !plot.y.log || series.points.iter().all(|(_, y)| *y > 0.0);
+            assert!(finite && drawn && !series.points.is_empty(), "{} {}", plot.stem, series.name);
+        }
+    }
+}
+
+#[test]
+fn shallow_reliefs_follow_the_fourth_power_and_the_square_of_the_cosine() {
+    let spectra = Spectra::built_in().expect("the built-in spectra");
+    let rules = rule_errors(1.0, &spectra).expect("a grating");
+    println!("{rules:?}");
+    for (square, fourth) in rules.square.iter().zip(rules.fourth) {
+        assert!(fourth < 0.01 && *square > 0.05, "{rules:?}");
+    }
+    assert!(cosine_error(1.0, 1.0).abs() < 1e-3);
+    assert!(cosine_error(120.0, 0.0).abs() < 1e-15);
+}
+
+#[test]
+fn the_solid_angle_of_an_even_table() {
+    assert!((mean_over_disc(1.0) - 2.0).abs() < 1e-15);
+    assert!((mean_over_disc(1e-4) - 1.0).abs() < 1e-8);
+    let (_, printed, whole) = disc_furnace(&[0.9]).expect("a disc")[0];
+    assert!(whole > printed && printed > 0.0);
+}
