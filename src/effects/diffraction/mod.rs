@@ -67,7 +67,6 @@ mod regions;
 mod resample;
 mod simulate;
 mod simulation;
-mod source;
 mod steps;
 mod surfaces;
 mod table;

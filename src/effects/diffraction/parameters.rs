@@ -24,9 +24,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         "heightmap",
         "",
         "",
-        "measured heights: FILE.f32 with FILE.json, instead of a surface",
+        "measured heights, instead of a surface: FILE.f32 with FILE.json, or FILE.exr with its axes",
     ),
-    parameter("pattern", "", "", "PNG of a pattern at one wavelength, instead of a surface"),
+    parameter(
+        "pattern",
+        "",
+        "",
+        "picture of a pattern at one wavelength, instead of a surface: PNG, EXR or PFM",
+    ),
     parameter("size", "1", "257", "texels per side of the table; odd puts h = 0 into one texel"),
     parameter(
         "extent",
@@ -64,6 +69,8 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     parameter("cell_um", "um", "8", "side of the patches of paper"),
     parameter("spread_deg", "deg", "12", "largest angle of paper's gratings from x or y"),
     parameter("wavelength_nm", "nm", "", "wavelength of a pattern"),
+    parameter("pattern_channel", "", "", "channel of a pattern; needed where several differ"),
+    parameter("pattern_encoding", "", "srgb", "what a PNG of a pattern holds: srgb or linear"),
     parameter("pattern_extent", "1", "", "|h| at the left and right edge of a pattern"),
     parameter(
         "pattern_centre_px",

@@ -1,7 +1,5 @@
 //! Diffraction tables from settings: what `striae simulate diffraction` and renderers ask for.
 
-use std::path::Path;
-
 use super::illuminant::Illuminant;
 use super::parameters::PARAMETERS;
 use super::preparation::{Detrend, Missing, Preparation, PreparedSurface, Window, prepared};
@@ -12,10 +10,10 @@ use super::surfaces::{
 use super::table::{
     Channels, DiffractionTable, PatternPlacing, TableShape, of_pattern, of_surface,
 };
-use super::{DiffractionError, simulation, source};
+use super::{DiffractionError, simulation};
 use crate::effects::simulator::{Settings, SettingsError, Simulation, SimulationError, Simulator};
 use crate::measured::height_map::HeightMap;
-use crate::measured::pattern::Pattern;
+use crate::measured::pattern::{Encoding, Pattern};
 use crate::measured::spectra::Spectra;
 use crate::table::Grid;
 
@@ -160,7 +158,10 @@ fn pattern(settings: &Settings) -> Result<Option<(Pattern, PatternPlacing)>, Dif
             return Err(SettingsError::Conflict { key: "pattern".into(), reason }.into());
         }
     }
-    let pattern = source::pattern(Path::new(settings.text("pattern")?))?;
+    let encodings = [("srgb", Encoding::Srgb), ("linear", Encoding::Linear)];
+    let encoding = settings.choice("pattern_encoding", &encodings)?;
+    let channel = settings.is_given("pattern_channel").then(|| settings.text("pattern_channel"));
+    let pattern = Pattern::read(settings.text("pattern")?, channel.transpose()?, encoding)?;
     let centre = if settings.is_given("pattern_centre_px") {
         let parts = settings.text("pattern_centre_px")?.split_once(',');
         let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
@@ -186,7 +187,7 @@ fn heights(settings: &Settings) -> Result<HeightMap, DiffractionError> {
             let key = "heightmap".into();
             return Err(SettingsError::Conflict { key, reason: reason.into() }.into());
         }
-        return source::height_map(Path::new(settings.text("heightmap")?));
+        return Ok(HeightMap::read(settings.text("heightmap")?)?);
     }
     Ok(simulated_heights(settings)?)
 }
