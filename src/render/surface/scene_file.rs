@@ -283,7 +283,7 @@ impl Keys<'_> {
         let [least, most] = MAP_WIDTHS;
         let key = "convolution.map_width";
         let width = self.within(key, section.map_width as f64, least, most)? as usize;
-        if width % 2 != 0 {
+        if !width.is_multiple_of(2) {
             return Err(self.wrong(key, format!("expected an even number, got {width}")));
         }
         let straighten = match section.straighten.as_deref() {
