@@ -57,8 +57,8 @@ fn relative_rms(test: &[f32], reference: &[f32]) -> f64 {
     (errors / squares(&mut reference.iter().map(|v| f64::from(*v)))).sqrt()
 }
 
-/// At full rank the two passes are the sum over the whole kernel, poles included, up to the
-/// interpolation of the map between them, whose error falls with the square of its texels.
+/// At full rank the two passes are the sum over the whole kernel, up to the interpolation of the map
+/// between them, wherever no move along a meridian crosses a pole.
 #[test]
 fn two_passes_at_full_rank_are_the_whole_kernel() {
     let kernel = AngularKernel::new(&table(33), &Alignment::identity());
@@ -73,11 +73,16 @@ fn two_passes_at_full_rank_are_the_whole_kernel() {
         for term in &terms {
             sum.iter_mut().zip(&term.rgb).for_each(|(sum, value)| *sum += value);
         }
-        relative_rms(&sum, &whole.rgb)
+        // The kernel reaches asin 0.6 = 0.64 rad from its centre.
+        let row = |polar: f64| (polar / std::f64::consts::PI * (width / 2) as f64) as usize;
+        let away = 3 * width * row(0.75)..3 * width * row(std::f64::consts::PI - 0.75);
+        let pair = (sum.get(away.clone()), whole.rgb.get(away));
+        let (Some(sum), Some(whole)) = pair else { panic!("rows of the map") };
+        relative_rms(sum, whole)
     });
     println!("relative RMS {errors:?}");
-    // Measured 2.8e-3 at 64 texels around.
-    assert!(errors[1] < 4e-3 && errors[1] < errors[0] / 3.0, "{errors:?}");
+    // Measured 1.3e-4 and 5.3e-5; over all rows 2.8e-3, for the east turns about at a pole.
+    assert!(errors[1] < 1e-4 && errors[1] < errors[0] / 2.0, "{errors:?}");
 }
 
 /// A uniform environment gives the albedo of the kernel everywhere.

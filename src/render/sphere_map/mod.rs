@@ -23,14 +23,16 @@
 //! The sum of eq. 6 and 7 has no 1/c and no area of a cell, and the pseudo-code divides by the
 //! largest sum of weights in their place; neither is needed.
 //!
-//! # Why two passes are exact on the sphere
+//! # Why two passes are exact on the sphere, but for the poles
 //!
 //! A pass moves a direction by an angle along a great circle. Moved by s₂ along the meridian and then
 //! by s₁ to the east, r goes to sin s₁ e + cos s₁ (sin s₂ n + cos s₂ r): the projection on the frame
 //! (e, n) of r is h = (sin s₁, cos s₁ sin s₂), because the east stays the same along a meridian.
 //! Tabulated over the two angles, with their Jacobian cos s₁ in place of 1/c, a kernel of rank r is
 //! convolved by r pairs of passes exactly; over h_x and h_y it would not be. What is left is the
-//! interpolation of the map between the passes.
+//! interpolation of the map between the passes, and the poles of its frame: a move along a meridian
+//! that crosses one comes down with the east turned about, so that what of the kernel is odd in s₁
+//! is mirrored there. Maps turned into the frame of a surface have their poles where its plane is.
 
 mod azimuthal;
 mod kernel;
