@@ -134,7 +134,7 @@ fn at_normal_incidence_the_convolution_is_the_integral() {
     let at = 3 * (row * 128 + column) as usize;
     for (channel, exact) in exact.iter().enumerate() {
         let found = f64::from(convolved.rgb[at + channel]);
-        // Measured 4e-4: the table resampled over angles.
+        // Not exact: the table is resampled over angles.
         assert!((found / exact - 1.0).abs() < 2e-3, "{channel}: {found} for {exact}");
     }
 }
