@@ -5,7 +5,6 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use striae::effects::registry;
 use striae::effects::sine_integral::sine_integral;
 use striae::fit::bounds::Bounds;
 use striae::fit::loss::Loss;
@@ -13,6 +12,7 @@ use striae::fit::model::{FormModel, Origin};
 use striae::fit::problem::Problem;
 use striae::fit::solve::{Solution, SolverKind, solve_from};
 use striae::form::Form;
+use striae::registry;
 
 /// As in fits/sine_integral/refit.toml.
 const START: [f64; 2] = [0.7, 0.4];

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use striae::fit::low_rank::Decomposition;
+use striae::factor::Decomposition;
 use striae::table::{Axis, Channel, Grid};
 
 const SIDE: usize = 512;

@@ -9,10 +9,14 @@
 
 pub mod numeric;
 pub mod table;
+pub mod document;
 pub mod measured;
 pub mod form;
 pub mod gpu;
+pub mod factor;
+pub mod effect;
 pub mod effects;
+pub mod registry;
 pub mod fit;
 pub mod validate;
 pub mod render;

@@ -4,11 +4,11 @@
 
 use std::f32::consts::PI;
 use std::time::{Duration, Instant};
-use striae::effects::registry;
 use striae::form::Form;
 use striae::gpu::{
     Cost, Device, GpuError, TimedForm, Timing, TimingOptions, list_adapters, required, time,
 };
+use striae::registry;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

@@ -4,11 +4,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use striae::effect::Member;
 use striae::effects::fresnel::EFFECT;
 use striae::effects::fresnel::materials::FAMILY;
 use striae::effects::fresnel::reference::{conductor, dielectric};
-use striae::effects::registry::{self, Member};
 use striae::form::{Form, Parameter};
+use striae::registry;
 
 /// Stated accuracy of the references; the largest error on the oracle's points is 1.8e-15.
 const RELATIVE_ERROR: f64 = 1e-13;

@@ -3,8 +3,8 @@
 
 use std::path::PathBuf;
 
-use striae::effects::registry::{self, EFFECTS};
 use striae::fit::FitResult;
+use striae::registry::{self, EFFECTS};
 use striae::validate::accuracy::Shipped;
 use striae::validate::laws::{LawStanding, judge};
 

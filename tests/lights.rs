@@ -6,11 +6,12 @@ use std::f64::consts::{PI, TAU};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
+use striae::effect::{FormEntry, Reference};
 use striae::effects::area_light::lights::monte_carlo::{self, Draws, Estimate};
 use striae::effects::area_light::{polygon_light, sphere_light};
-use striae::effects::registry::{self, FormEntry, Reference};
 use striae::gpu::{Device, required};
 use striae::numeric::statistics::sum;
+use striae::registry;
 
 /// Samples per configuration.
 const SAMPLES: u32 = 100_000;

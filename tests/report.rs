@@ -8,10 +8,11 @@ use std::path::{Path, PathBuf};
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use report_sample::{pages, provenance};
-use striae::report::document::{Block, Cell, Column, Figure, Inline, Page, Section, Span, Table};
+use striae::document::plot::{Axis, Plot, Series};
+use striae::document::{Block, Cell, Column, Figure, Inline, Page, Section, Span, Table};
+use striae::document::{json, text};
 use striae::report::html::{SiteError, write_site};
-use striae::report::plot::{Axis, Drawing, Plot, Rect, Series, draw};
-use striae::report::{json, text};
+use striae::report::plot::{Drawing, Rect, draw};
 
 type Result<T = (), E = Box<dyn std::error::Error>> = std::result::Result<T, E>;
 

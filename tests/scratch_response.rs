@@ -3,11 +3,12 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use striae::effects::registry::{DomainError, reference};
+use striae::effect::DomainError;
 use striae::effects::scratch_response::{
     Coherence, Directions, Scratch, along_factor, sinc_pi, svbrdf,
 };
 use striae::numeric::quadrature::GaussLegendre;
+use striae::registry::reference;
 
 /// Error stated in the documentation of the references, of the largest value over all directions.
 const STATED: f64 = 1e-12;

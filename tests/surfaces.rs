@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
-use striae::fit::low_rank::{Alignment, Decomposition};
+use striae::factor::{Alignment, Decomposition};
 use striae::form::{DataTable, Form};
 use striae::gpu::Device;
 use striae::render::Backend;

@@ -8,8 +8,8 @@ use super::fingerprint::{self, Fingerprints};
 use super::fit::{self, Job};
 use super::{Ending, check, report, specs, studies};
 use crate::fit::Spec;
+use crate::numeric::measured::Measured;
 use crate::table::store::atomic_write;
-use crate::validate::measured::Measured;
 
 const MORE: &str = "\
 A spec is fitted again if it, its data, this program or the committed result changed; the report is

@@ -9,12 +9,12 @@ use super::Ending;
 use super::context::Context;
 use super::output::{significant, table};
 use super::studies::{self, Results, Studied};
-use crate::effects::registry::Yardstick;
+use crate::effect::Yardstick;
+use crate::numeric::measured::Measured;
 use crate::numeric::statistics::largest;
 use crate::validate::cheapest::{Cheapest, cheapest};
 use crate::validate::cost::{Cost, Costs};
 use crate::validate::goals::{GoalVerdict, goals};
-use crate::validate::measured::Measured;
 
 const MORE: &str = "\
 Forms are timed in one run, interleaved, on f64 and f32 lanes (one core) and, where there is an

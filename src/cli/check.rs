@@ -11,7 +11,7 @@ use super::{Ending, specs, studies};
 use crate::fit::Spec;
 use crate::gate::{self, Check, Gate, Precision, Proofs, Verdict};
 use crate::gpu::{self, Device};
-use crate::validate::measured::Measured;
+use crate::numeric::measured::Measured;
 
 const MORE: &str = "\
 A gate of fits/gates.toml is measured afresh, with the committed constants on points that were not

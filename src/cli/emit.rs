@@ -11,10 +11,10 @@ use super::context::Context;
 use super::evaluable::{Evaluable, Shipped};
 use super::output::{self, significant};
 use super::project::Project;
-use crate::effects::registry;
 use crate::fit::Spec;
 use crate::fit::outcome::{Outcome, Residuals};
 use crate::form::emit::{Emitted, Language, emit};
+use crate::registry;
 use crate::table::store::atomic_write;
 
 const MORE: &str = "\

@@ -9,7 +9,7 @@ use super::context::Context;
 use super::evaluable::{Evaluable, Shipped};
 use super::points::Points;
 use super::{Ending, output};
-use crate::effects::registry::Reference;
+use crate::effect::Reference;
 use crate::gpu::Device;
 use crate::table::store::atomic_write;
 

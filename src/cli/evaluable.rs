@@ -5,10 +5,11 @@ use std::path::Path;
 use anyhow::{Context as _, anyhow, bail};
 
 use super::project::Project;
-use crate::effects::registry::{self, EFFECTS, Reference};
+use crate::effect::Reference;
 use crate::fit::FitResult;
 use crate::fit::outcome::Outcome;
 use crate::form::Form;
+use crate::registry::{self, EFFECTS};
 
 /// Something that has values at points.
 pub(super) enum Evaluable {

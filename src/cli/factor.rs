@@ -10,7 +10,7 @@ use super::Ending;
 use super::context::Context;
 use super::factor_pictures::{picture, write_lines};
 use super::factor_table::{Factored, Lines, Row};
-use crate::fit::low_rank::{
+use crate::factor::{
     Alignment, ConvolutionNorm, ConvolvedOptions, Decomposition, LowRank, LowRankError,
     MainDirections, NormOptions, SearchOptions, Stopping, Weight, aligned, convolved, directional,
     main_directions, nonnegative, shared, weighted,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::fit::low_rank::Directional;
+use crate::factor::Directional;
 use crate::render::image::{Channel, Image};
 use crate::table::{Column, Grid, Table};
 

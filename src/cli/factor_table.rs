@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::output::{significant, table};
-use crate::fit::low_rank::{Directional, MainDirections, Spectrum};
+use crate::factor::{Directional, MainDirections, Spectrum};
 use crate::table::{Grid, shortest_number};
 
 /// One method at one rank in one channel.

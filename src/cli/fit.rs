@@ -11,12 +11,12 @@ use super::fit_table::{constants, summary};
 use super::project::Project;
 use super::specs::{self, SpecFile};
 use super::{Ending, assignment, progress};
-use crate::effects::registry;
 use crate::fit::loss::Loss;
 use crate::fit::solve::SolverKind;
 use crate::fit::spec::{FormChoice, ParameterChoice, Target, Unnamed, Weighting};
 use crate::fit::{FitResult, Spec, run, run_spec};
 use crate::gate;
+use crate::registry;
 
 const MORE: &str = "\
 Results are written to fits/<effect>/<name>.json beside their specs, each through a temporary file

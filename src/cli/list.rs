@@ -7,8 +7,8 @@ use serde_json::{Map, Value};
 use super::context::Context;
 use super::output::{significant, table};
 use super::{Ending, specs};
-use crate::effects::registry::EFFECTS;
 use crate::gate;
+use crate::registry::EFFECTS;
 use crate::render::AnyScene;
 
 /// List what there is: effects, references, forms, simulators, data, scenes, fits and gates

@@ -7,12 +7,12 @@ use serde::Serialize;
 use super::Ending;
 use super::context::Context;
 use super::output::{significant, table};
+use crate::numeric::measured::Measured;
 use crate::render::scene::{FIGURES, SHEET};
 use crate::render::sheet::surface_comparison;
 use crate::render::surface::scene::{Method, ReferenceMethod, SurfaceScene};
 use crate::render::surface::{AngleError, ConvolutionTimes, RenderedSurface};
 use crate::table::store::atomic_write;
-use crate::validate::measured::Measured;
 
 /// What goes to `scene.json` and, as a table, to stdout.
 #[derive(Debug, Serialize)]

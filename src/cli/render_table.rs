@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::output::{significant, table};
+use crate::numeric::measured::Measured;
 use crate::render::scene::{ReferenceMethod, Scene};
 use crate::render::speed::{Convergence, EqualError, Timings};
 use crate::render::{Metrics, RenderedApproximation, RenderedScene};
-use crate::validate::measured::Measured;
 
 /// What goes to `scene.json` and, as a table, to stdout.
 #[derive(Debug, Serialize)]

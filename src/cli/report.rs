@@ -9,15 +9,15 @@ use super::check;
 use super::context::Context;
 use super::progress;
 use super::studies::{self, Results, Studied};
-use crate::effects::registry::EFFECTS;
+use crate::document::{Page, Provenance, Verdict};
 use crate::gate::{Check, Judgement, SCENES, Verdict as Standing};
 use crate::gpu::Device;
-use crate::report::document::{Page, Provenance, Verdict};
+use crate::numeric::measured::Measured;
+use crate::registry::EFFECTS;
 use crate::report::html::{Written, write_site};
 use crate::report::pages::{
     Evidence, GateLine, effect_page, index_page, scenes_page, surfaces_page,
 };
-use crate::validate::measured::Measured;
 
 const MORE: &str = "\
 Writes index.html and a page per effect (self-contained, no network), report.json, report.txt and

@@ -9,10 +9,10 @@ use serde_json::json;
 use super::Ending;
 use super::context::Context;
 use super::output::{significant, table};
-use crate::effects::exhibit::{ExhibitCell, ExhibitTable};
-use crate::effects::registry::{EFFECTS, simulator};
-use crate::effects::simulator::{Settings, Simulator};
+use crate::effect::exhibit::{ExhibitCell, ExhibitTable};
+use crate::effect::simulator::{Settings, Simulator};
 use crate::measured::spectra::Spectra;
+use crate::registry::{EFFECTS, simulator};
 use crate::render::image::Image;
 use crate::table::{Column, Grid, Table};
 

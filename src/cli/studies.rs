@@ -5,16 +5,17 @@ use anyhow::{Context as _, bail};
 use super::context::Context;
 use super::project::Project;
 use super::specs;
-use crate::effects::registry::{EFFECTS, Effect, Member};
+use crate::effect::{Effect, Member};
 use crate::fit::FitResult;
 use crate::fit::outcome::{FamilyOutcome, Outcome};
 use crate::gpu::{self, Device};
+use crate::numeric::measured::Measured;
+use crate::registry::EFFECTS;
 use crate::render::surface::render_surface;
 use crate::render::{AnyScene, Backend, Resources, render_scene};
 use crate::report::pages::{SceneEvidence, SurfaceEvidence};
 use crate::validate::candidates::{candidates, timed_references};
 use crate::validate::cost::{Costs, costs};
-use crate::validate::measured::Measured;
 use crate::validate::study::{Study, study};
 
 /// The committed results of a project.

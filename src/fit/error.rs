@@ -1,6 +1,6 @@
 //! Why a fit could not be run. How a fit that ran ended is `outcome::Status`.
 
-use crate::effects::registry::{DomainError, FamilyError};
+use crate::effect::{DomainError, FamilyError};
 use crate::form::FormError;
 use crate::table::TableError;
 

@@ -13,7 +13,6 @@ mod spec_file;
 pub mod model;
 mod inherit;
 pub mod loss;
-pub mod low_rank;
 pub mod bounds;
 pub mod problem;
 pub mod solve;

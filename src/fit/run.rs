@@ -21,8 +21,9 @@ use super::spec::{FormChoice, Spec, Target, Weighting};
 use super::statistics::equioscillations;
 use super::target::{Noise, Points, read_table};
 use super::worth::Worth;
-use crate::effects::registry::{self, EFFECTS, Effect, Reference};
+use crate::effect::{Effect, Reference};
 use crate::form::Form;
+use crate::registry::{self, EFFECTS};
 use crate::table::store::sha256_hex;
 
 /// Where things are.

@@ -10,7 +10,7 @@ use super::error::FitError;
 use super::loss::Loss;
 use super::sampling::{MOST_POINTS, tensor_product};
 use super::spec::{Domain, Spec, Weighting};
-use crate::effects::registry::Reference;
+use crate::effect::Reference;
 use crate::table::{Column, Table};
 
 /// Column of a region's points that holds weights.

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::fit::Spec;
 use crate::gpu::Device;
-use crate::validate::measured::Measured;
+use crate::numeric::measured::Measured;
 
 /// The verdicts on a project.
 #[derive(Debug, Clone, PartialEq, Serialize)]

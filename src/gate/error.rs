@@ -1,7 +1,7 @@
 //! Why gates could not be judged at all, as opposed to failing.
 
 use super::{Gate, GateFileError};
-use crate::effects::registry::FamilyError;
+use crate::effect::FamilyError;
 use crate::fit::FitError;
 use crate::render::RenderError;
 use crate::table::TableError;

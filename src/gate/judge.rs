@@ -4,8 +4,8 @@ use super::drift::drift;
 use super::subject::{Subject, reached, worst};
 use super::{Evidence, Gate, GateError, Judgement, Metric, Precision};
 use crate::gpu::Device;
+use crate::numeric::measured::Measured;
 use crate::validate::ValidateError;
-use crate::validate::measured::Measured;
 
 /// Judges every gate, in the order of the file.
 ///

@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::subject::{Instance, Lever, Subject, reached};
 use super::{Evidence, Gate, GateError, Metric, Precision, SCENES, ShippedConstants};
 use crate::gpu::Device;
+use crate::numeric::measured::Measured;
 use crate::numeric::ulp::ulp_distance_f32;
-use crate::validate::measured::Measured;
 
 /// Relative steps, tried in this order with both signs. A constant that can move by 30 % unnoticed
 /// is not guarded.

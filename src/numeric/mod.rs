@@ -1,5 +1,6 @@
 //! Numbers without physics: quadrature, distances in ulp, statistics.
 
+pub mod measured;
 pub mod quadrature;
 pub mod statistics;
 pub mod ulp;

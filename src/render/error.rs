@@ -1,7 +1,7 @@
 //! Why a scene could not be read or rendered.
 
-use crate::effects::registry::DomainError;
-use crate::fit::low_rank::LowRankError;
+use crate::effect::DomainError;
+use crate::factor::LowRankError;
 use crate::form::FormError;
 use crate::gpu::GpuError;
 use crate::measured::MeasuredError;

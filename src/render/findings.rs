@@ -1,7 +1,7 @@
 //! What the paper says of its lobes, beside what a rendered scene shows.
 
-use crate::effects::registry::Finding;
-use crate::validate::measured::Measured;
+use crate::effect::Finding;
+use crate::numeric::measured::Measured;
 
 use super::rendered::{RenderedApproximation, RenderedScene};
 use super::scene::Scene;

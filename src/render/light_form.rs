@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::{Component, Path};
 
-use crate::effects::registry;
 use crate::fit::FitResult;
 use crate::fit::outcome::Outcome;
 use crate::form::{Form, Parameter};
+use crate::registry;
 
 use super::error::RenderError;
 

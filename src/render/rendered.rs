@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::measured::spectra::Spectra;
-use crate::validate::measured::Measured;
+use crate::numeric::measured::Measured;
 
 use super::backend::{Backend, Painter};
 use super::compare::error_map::ErrorMap;

@@ -9,7 +9,7 @@
 use serde::Serialize;
 
 use crate::gpu::{self, Device, TimedForm, TimingOptions};
-use crate::validate::measured::Measured;
+use crate::numeric::measured::Measured;
 
 use super::error::RenderError;
 use super::illumination::directions;

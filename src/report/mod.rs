@@ -1,14 +1,8 @@
-//! Reports: a document model, and what it is written as (HTML, JSON, plain text, SVG).
+//! Reports: how a document is drawn and written as HTML.
 //!
-//! [`document`] says what a page holds, [`plot`] draws its figures, [`html`], [`json`] and [`text`]
-//! write it. [`html::write_site`] writes all of them into one folder.
+//! [`crate::document`] says what a page holds, [`plot`] draws its figures, [`html::write_site`]
+//! writes pages, JSON and plain text into one folder.
 
-mod document_inline;
-pub mod document_cell;
-mod document_table;
-pub mod document;
-pub mod plot;
-pub mod json;
-pub mod text;
 pub mod html;
 pub mod pages;
+pub mod plot;

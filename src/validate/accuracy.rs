@@ -6,14 +6,14 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 #[cfg(doc)]
-use crate::effects::registry::Region;
-use crate::effects::registry::{Reference, Yardstick};
+use crate::effect::Region;
+use crate::effect::{Reference, Yardstick};
 use crate::fit::outcome::Residuals;
 use crate::form::Form;
 use crate::gpu::{Device, Kernel};
+use crate::numeric::measured::Measured;
 use crate::table::Table;
 use crate::validate::ValidateError;
-use crate::validate::measured::Measured;
 
 /// A form with its constants, in the order of [`Form::parameters`].
 #[derive(Debug, Clone)]

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::effects::registry::{self, Effect, Member};
+use crate::effect::{Effect, Member};
 use crate::fit::outcome::{FamilyOutcome, Outcome};
+use crate::registry;
 use crate::validate::ValidateError;
 use crate::validate::accuracy::{Shipped, Target};
 use crate::validate::cost::{Candidate, TimedReference};

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::effects::registry::Yardstick;
+use crate::effect::Yardstick;
 use crate::validate::cost::{Cost, Costs};
 use crate::validate::study::Study;
 

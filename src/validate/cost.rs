@@ -8,13 +8,13 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::registry::Reference;
+use crate::effect::Reference;
 use crate::form::OpCount;
 use crate::gpu::{self, AdapterDescription, Device, Measurement, TimedForm, TimingOptions};
+use crate::numeric::measured::Measured;
 use crate::numeric::statistics::percentile;
 use crate::validate::ValidateError;
 use crate::validate::accuracy::{Shipped, Target};
-use crate::validate::measured::Measured;
 
 /// Cost of one form.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::effects::registry::{Member, Reference};
+use crate::effect::{Member, Reference};
 use crate::table::{Column, Table};
 use crate::validate::ValidateError;
 use crate::validate::accuracy::{Shipped, Target, values_f32};

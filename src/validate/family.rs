@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::effects::registry::Member;
+use crate::effect::Member;
 use crate::fit::outcome::{Outcome, Residuals};
 use crate::table::Table;
 

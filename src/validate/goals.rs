@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use crate::effects::registry::Effect;
+use crate::effect::Effect;
+use crate::numeric::measured::Measured;
 use crate::validate::cost::Costs;
-use crate::validate::measured::Measured;
 use crate::validate::study::Study;
 
 /// A goal, judged.
@@ -35,7 +35,7 @@ pub struct GoalVerdict {
 /// Judges the goals of `effect`. A goal on a fit or region that was not studied is not met: its
 /// error is NaN.
 pub fn goals(effect: &Effect, study: &Study, costs: &Costs) -> Vec<GoalVerdict> {
-    let verdict = |goal: &crate::effects::registry::Goal| {
+    let verdict = |goal: &crate::effect::Goal| {
         let fit = study.fits.iter().find(|fit| fit.outcome.name == goal.fit);
         let accuracy = fit.and_then(|fit| {
             let mut all = fit.regions.iter().chain(&fit.hard_cases);

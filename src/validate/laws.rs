@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::effects::registry::{Effect, Law};
+use crate::effect::{Effect, Law};
 use crate::validate::accuracy::Shipped;
 
 /// How a form stands to a law.

@@ -8,14 +8,13 @@ pub mod curves;
 pub mod family;
 pub mod goals;
 pub mod laws;
-pub mod measured;
 pub mod parity;
 pub(crate) mod regions;
 pub mod sampling;
 pub mod study;
 
-use crate::effects::exhibit::ExhibitError;
-use crate::effects::registry::DomainError;
+use crate::effect::DomainError;
+use crate::effect::exhibit::ExhibitError;
 use crate::form::FormError;
 use crate::gpu::GpuError;
 

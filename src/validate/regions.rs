@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::effects::registry::{Effect, Reference, Region};
+use crate::effect::{Effect, Reference, Region};
 use crate::form::Form;
 use crate::table::Table;
 use crate::validate::ValidateError;

@@ -4,16 +4,17 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::effects::exhibit::Exhibit;
-use crate::effects::registry::{self, Effect, Finding, FittedConstants, Member};
+use crate::effect::exhibit::Exhibit;
+use crate::effect::{Effect, Finding, FittedConstants, Member};
 use crate::fit::outcome::{FamilyOutcome, Outcome};
 use crate::form::Form;
 use crate::gpu::Device;
+use crate::numeric::measured::Measured;
+use crate::registry;
 use crate::validate::ValidateError;
 use crate::validate::accuracy::{Accuracy, Shipped, Target, accuracy, residuals_f32};
 use crate::validate::family::{FormOverFamily, GroupSpread, over_family, spreads};
 use crate::validate::laws::{LawVerdict, judge};
-use crate::validate::measured::Measured;
 use crate::validate::parity::{Parity, parity};
 use crate::validate::regions::{Atlas, Grounds};
 

@@ -1,6 +1,6 @@
 //! Main directions, straightening and resampling.
 
-use striae::fit::low_rank::{
+use striae::factor::{
     Alignment, Decomposition, LowRankError, SearchOptions, aligned, main_directions,
     resampling_error,
 };

@@ -1,6 +1,6 @@
 //! Errors after convolution, and factors made for them.
 
-use striae::fit::low_rank::{
+use striae::factor::{
     Alignment, ConvolutionNorm, ConvolvedOptions, Decomposition, LowRankError, NormOptions,
     convolved, seen_error,
 };

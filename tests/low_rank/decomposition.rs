@@ -1,6 +1,6 @@
 //! The singular value decomposition, its signs and its repeated values.
 
-use striae::fit::low_rank::{Alignment, Decomposition, LowRank, LowRankError};
+use striae::factor::{Alignment, Decomposition, LowRank, LowRankError};
 use striae::table::Grid;
 
 use super::tables::{cross, display, holographic, noisy, rows, table};

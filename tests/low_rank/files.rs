@@ -1,6 +1,6 @@
 //! Factors in files.
 
-use striae::fit::low_rank::{Alignment, Decomposition, LowRank};
+use striae::factor::{Alignment, Decomposition, LowRank};
 use striae::table::{Table, sidecar_path};
 
 use super::tables::display;

@@ -1,6 +1,6 @@
 //! Kernels from factors, as printed and as meant; kernels along lines.
 
-use striae::fit::low_rank::{Decomposition, directional, drawn};
+use striae::factor::{Decomposition, directional, drawn};
 use striae::table::Grid;
 
 use super::tables::{cross, disc, display, noisy, table};

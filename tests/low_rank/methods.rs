@@ -1,6 +1,6 @@
 //! Shared, weighted and non-negative factors.
 
-use striae::fit::low_rank::{
+use striae::factor::{
     Alignment, Decomposition, LowRankError, Stopping, Weight, nonnegative, shared, weighted,
 };
 

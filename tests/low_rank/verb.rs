@@ -1,6 +1,6 @@
 //! `striae factor`, from outside.
 
-use striae::fit::low_rank::LowRank;
+use striae::factor::LowRank;
 use striae::table::Grid;
 
 use super::project::{Project, striae};

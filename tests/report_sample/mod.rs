@@ -1,10 +1,10 @@
 //! A report with every kind of block, with figures of the shapes that effects show: error curves,
 //! error against cost, small multiples.
 
-use striae::report::document::{
+use striae::document::plot::{Axis, Plot, Series};
+use striae::document::{
     Block, Cell, Column, Figure, Highlight, NoticeLevel, Page, Provenance, Section, Table, Verdict,
 };
-use striae::report::plot::{Axis, Plot, Series};
 
 pub(crate) fn provenance() -> Provenance {
     Provenance {

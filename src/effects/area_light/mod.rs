@@ -6,7 +6,7 @@ pub mod lights;
 
 pub use lights::{polygon_light, sphere_light};
 
-use crate::effects::registry::{Effect, Goal};
+use crate::effect::{Effect, Goal};
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {

@@ -1,4 +1,4 @@
-use crate::effects::simulator::SettingsError;
+use crate::effect::simulator::SettingsError;
 use crate::measured::MeasuredError;
 use crate::table::TableError;
 

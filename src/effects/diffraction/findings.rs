@@ -9,7 +9,7 @@ use super::exhibits::{
 use super::preparation::{USUAL, prepared};
 use super::surfaces::{HolographicPaper, Patch, holographic_paper};
 use super::table::{Channels, NORMAL, TableShape, of_surface};
-use crate::effects::registry::{Finding, FittedConstants};
+use crate::effect::{Finding, FittedConstants};
 use crate::measured::spectra::Spectra;
 
 type Claim = fn(&Spectra) -> Result<Finding, DiffractionError>;

@@ -1,7 +1,7 @@
 //! Forms of the powers of orders: what the first order assumes, and what a shader can afford.
 
 use super::{FIRST_ORDER, ZERO_ORDER};
-use crate::effects::registry::{FormEntry, Source};
+use crate::effect::{FormEntry, Source};
 
 /// Forms, the baseline of each reference first.
 pub(super) const FORMS: &[FormEntry] = &[

@@ -1,7 +1,7 @@
 //! Properties that a power of an order has, whatever the error of a form.
 
 use super::regions::hard_cases;
-use crate::effects::registry::{FormValues, Law};
+use crate::effect::{FormValues, Law};
 use crate::numeric::statistics::largest;
 
 const ZERO: &[&str] = &["sinusoid_zero_order"];

@@ -93,7 +93,7 @@ pub use table::{
     relative_l2,
 };
 
-use crate::effects::registry::{DomainError, Effect, Quantity, Reference};
+use crate::effect::{DomainError, Effect, Quantity, Reference};
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {

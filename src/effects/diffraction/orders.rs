@@ -17,7 +17,7 @@ use super::far_field::{FarField, Transform};
 use super::preparation::PreparedSurface;
 use super::reference::sinusoid_order_power;
 use super::table::at_wavelength;
-use crate::effects::registry::DomainError;
+use crate::effect::DomainError;
 use crate::numeric::statistics;
 
 /// Deviation from the mean below which a surface is flat, nm: rounding of a mean plane.

@@ -1,6 +1,6 @@
 //! The settings of the simulator.
 
-use crate::effects::simulator::Parameter;
+use crate::effect::simulator::Parameter;
 
 const fn parameter(
     name: &'static str,

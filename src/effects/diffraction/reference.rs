@@ -14,7 +14,7 @@
 
 use std::f64::consts::PI;
 
-use crate::effects::registry::DomainError;
+use crate::effect::DomainError;
 
 /// Largest order.
 pub const MOST_ORDER: u32 = 10;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use crate::effects::registry::{Region, Yardstick};
+use crate::effect::{Region, Yardstick};
 use crate::table::{Column, Table};
 
 /// Phase of a disc's pits: k w D/2 for D = 120 nm at 450 nm, w = 2.

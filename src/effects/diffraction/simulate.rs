@@ -11,7 +11,7 @@ use super::table::{
     Channels, DiffractionTable, PatternPlacing, TableShape, of_pattern, of_surface,
 };
 use super::{DiffractionError, simulation};
-use crate::effects::simulator::{Settings, SettingsError, Simulation, SimulationError, Simulator};
+use crate::effect::simulator::{Settings, SettingsError, Simulation, SimulationError, Simulator};
 use crate::measured::height_map::HeightMap;
 use crate::measured::pattern::{Encoding, Pattern};
 use crate::measured::spectra::Spectra;

@@ -9,8 +9,8 @@ use super::preparation::{
 use super::simulate::{Origin, padding, preparation, shape, w};
 use super::steps::{Step, changes};
 use super::table::DiffractionTable;
-use crate::effects::exhibit::{ExhibitCell, ExhibitTable};
-use crate::effects::simulator::{Settings, Simulation};
+use crate::effect::exhibit::{ExhibitCell, ExhibitTable};
+use crate::effect::simulator::{Settings, Simulation};
 use crate::measured::height_map::HeightMap;
 
 /// Share of the heights' variance above which a surface counts as a sinusoid.

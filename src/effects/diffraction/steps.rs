@@ -4,7 +4,7 @@ use super::DiffractionError;
 use super::far_field::{FarField, Transform};
 use super::preparation::{Preparation, prepared};
 use super::table::at_wavelength;
-use crate::effects::exhibit::{ExhibitCell, ExhibitTable};
+use crate::effect::exhibit::{ExhibitCell, ExhibitTable};
 use crate::measured::height_map::HeightMap;
 
 /// Heights and their preparation, under a name.

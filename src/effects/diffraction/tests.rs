@@ -2,7 +2,7 @@
 
 use super::EFFECT;
 use super::exhibits::{cosine_error, disc_furnace, mean_over_disc, rule_errors};
-use crate::effects::registry::FittedConstants;
+use crate::effect::FittedConstants;
 use crate::measured::spectra::Spectra;
 
 #[test]

@@ -3,9 +3,9 @@
 
 use rayon::prelude::*;
 
-use crate::effects::exhibit::ExhibitError;
-use crate::effects::fitted_form::FittedForm;
-use crate::effects::registry::{DomainError, FittedConstants, FormEntry};
+use crate::effect::exhibit::ExhibitError;
+use crate::effect::fitted_form::FittedForm;
+use crate::effect::{DomainError, FittedConstants, FormEntry};
 use crate::form::FormError;
 use crate::numeric::statistics;
 

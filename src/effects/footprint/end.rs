@@ -24,7 +24,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI, SQRT_2};
 
 use super::reference::{finite, length, mean_across, signed_length};
-use crate::effects::registry::DomainError;
+use crate::effect::DomainError;
 use crate::numeric::quadrature::GaussLegendre;
 
 /// Half-chord below which the mean along the chord is taken by quadrature, where the difference of

@@ -1,10 +1,10 @@
 //! Fig. 5 of velinov2018, and errors against the half-extent and against the tilt.
 
-use crate::effects::exhibit::{
+use crate::effect::FittedConstants;
+use crate::effect::exhibit::{
     Exhibit, ExhibitAxis, ExhibitCell, ExhibitError, ExhibitPlot, ExhibitSeries, ExhibitTable,
     Stroke,
 };
-use crate::effects::registry::FittedConstants;
 use crate::numeric::statistics::percentile;
 
 use super::approximation::{Approximation, Line, Mean, NotMeasured};

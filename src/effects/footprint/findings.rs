@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::effects::registry::{Finding, FittedConstants};
+use crate::effect::{Finding, FittedConstants};
 
 use super::approximation::{Approximation, Line, Mean, NotMeasured};
 use super::pixels::Footprint;

@@ -1,7 +1,7 @@
 //! The forms of the effect: what renderers ship, its repairs, and the soft chords.
 
 use super::{COVERAGE, END, RESPONSE};
-use crate::effects::registry::{FormEntry, Source};
+use crate::effect::{FormEntry, Source};
 
 /// Forms, the baseline of each reference first.
 pub(super) const FORMS: &[FormEntry] = &[

@@ -1,6 +1,6 @@
 //! Points that have broken implementations.
 
-use crate::effects::registry::{Region, Yardstick};
+use crate::effect::{Region, Yardstick};
 use crate::table::Table;
 
 use super::pixels::Footprint;

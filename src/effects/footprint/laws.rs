@@ -1,7 +1,7 @@
 //! Properties that a mean over a footprint has, whatever the error of a form.
 
 use super::hard_cases::{HALF_EXTENTS, offsets};
-use crate::effects::registry::{FormValues, Law};
+use crate::effect::{FormValues, Law};
 
 /// References of infinite scratches.
 const INFINITE: &[&str] = &["footprint_response", "footprint_coverage"];

@@ -57,7 +57,7 @@ mod regions;
 pub use end::{ScratchEnd, response_at_end};
 pub use reference::{coverage, response};
 
-use crate::effects::registry::{DomainError, Effect, Goal, Quantity, Reference};
+use crate::effect::{DomainError, Effect, Goal, Quantity, Reference};
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {

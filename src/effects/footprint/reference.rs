@@ -17,7 +17,7 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
-use crate::effects::registry::DomainError;
+use crate::effect::DomainError;
 use crate::numeric::statistics::sum;
 
 /// Largest half-extent, half-length and shear, in units of σ.

@@ -6,7 +6,7 @@
 //! footprint, so that every footprint counts alike; for the coverage they are the same to a factor
 //! between 1 and √2.
 
-use crate::effects::registry::{Region, Yardstick};
+use crate::effect::{Region, Yardstick};
 use crate::table::{Column, Table};
 
 use super::end::{ScratchEnd, response_at_end};

@@ -1,7 +1,7 @@
 //! Every form, with the constants written in its text, at the hard points; the paper's numbers.
 
 use super::EFFECT;
-use crate::effects::registry::FittedConstants;
+use crate::effect::FittedConstants;
 use crate::form::Form;
 
 fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {

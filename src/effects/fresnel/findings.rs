@@ -1,7 +1,7 @@
 //! What is printed about these approximations, beside what is found.
 
+use crate::effect::{Finding, FittedConstants};
 use crate::effects::fresnel::reference::{Reflectance, conductor};
-use crate::effects::registry::{Finding, FittedConstants};
 
 /// Karis' constants, as printed: 2^((A mu − B) mu).
 const KARIS: (f64, f64) = (-5.55473, 6.98316);

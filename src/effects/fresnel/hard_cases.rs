@@ -1,6 +1,6 @@
 //! Points that break careless implementations.
 
-use crate::effects::registry::{Region, Yardstick};
+use crate::effect::{Region, Yardstick};
 use crate::table::{Column, Table};
 
 /// The hard cases, as registered.

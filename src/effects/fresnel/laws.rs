@@ -2,7 +2,7 @@
 //!
 //! Monotonicity is not among them: a metal reflects less at its pseudo-Brewster angle than head-on.
 
-use crate::effects::registry::Law;
+use crate::effect::Law;
 
 type Evaluate<'a> = &'a dyn Fn(&[Vec<f32>]) -> Vec<f32>;
 

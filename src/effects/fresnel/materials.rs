@@ -21,8 +21,8 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
+use crate::effect::{Family, FamilyError, Member};
 use crate::effects::fresnel::reference::{Reflectance, conductor};
-use crate::effects::registry::{Family, FamilyError, Member};
 use crate::measured::optical_constants::{self, OpticalConstants};
 use crate::measured::spectra::Spectra;
 use crate::table::{Column, Table};

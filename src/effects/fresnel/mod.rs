@@ -41,7 +41,7 @@ mod laws;
 pub mod materials;
 pub mod reference;
 
-use crate::effects::registry::{DomainError, Effect, Quantity, Reference, Region, Yardstick};
+use crate::effect::{DomainError, Effect, Quantity, Reference, Region, Yardstick};
 use crate::table::{Column, Table};
 
 /// The effect, as registered.

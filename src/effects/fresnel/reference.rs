@@ -26,7 +26,7 @@
 //! Re(μ²(m² + 1) − 1) = μ²(n² − k² + 1) − 1 (Brewster's angle): these two are formed in twice the
 //! working precision.
 
-use crate::effects::registry::DomainError;
+use crate::effect::DomainError;
 
 /// Largest index for which the fourth powers above stay far from overflow.
 const LARGEST_INDEX: f64 = 1e30;

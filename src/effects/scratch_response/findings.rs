@@ -9,7 +9,7 @@ use super::exhibits::{
     side_lobe_energy,
 };
 use super::surface::{Coherence, Directions, Scratch, mirror_amplitude};
-use crate::effects::registry::{Finding, FittedConstants};
+use crate::effect::{Finding, FittedConstants};
 use crate::numeric::statistics::relative_l2;
 
 const COMMAND: &str = "striae report";

@@ -1,6 +1,6 @@
 //! The approximations, as registered.
 
-use crate::effects::registry::{FormEntry, Source};
+use crate::effect::{FormEntry, Source};
 
 macro_rules! written {
     ($name:literal + [$($piece:literal),*], $reference:literal, $description:literal, $citation:literal) => {

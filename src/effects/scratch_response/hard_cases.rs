@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::regions::{Row, table};
-use crate::effects::registry::{Region, Yardstick};
+use crate::effect::{Region, Yardstick};
 
 /// The hard cases, as registered.
 pub(super) const HARD_CASES: Region = Region {

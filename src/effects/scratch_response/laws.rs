@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::hard_cases;
 use super::regions::Row;
-use crate::effects::registry::{FormValues, Law};
+use crate::effect::{FormValues, Law};
 use crate::numeric::statistics::largest;
 
 const SINGLE: &[&str] = &["scratch_reflectance", "scratched_mirror_reflectance"];

@@ -55,7 +55,7 @@ pub use surface::{
     Coherence, Directions, Scratch, coherent_amplitude, mirror_amplitude, superposed_svbrdf, svbrdf,
 };
 
-use crate::effects::registry::Effect;
+use crate::effect::Effect;
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {

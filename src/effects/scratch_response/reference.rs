@@ -1,7 +1,7 @@
 //! Reflectances as scalars, with their domains: what `striae eval` computes and forms are judged by.
 
 use super::surface::{Coherence, Directions, Scratch, coherent_amplitude, svbrdf};
-use crate::effects::registry::{DomainError, Quantity, Reference};
+use crate::effect::{DomainError, Quantity, Reference};
 
 const fn quantity(name: &'static str, unit: &'static str, domain: &'static str) -> Quantity {
     Quantity { name, unit, domain }

@@ -2,7 +2,7 @@
 
 use super::EFFECT;
 use super::*;
-use crate::effects::registry::FittedConstants;
+use crate::effect::FittedConstants;
 use crate::form::Form;
 
 fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
@@ -217,7 +217,7 @@ fn energies_over_the_plane_are_what_the_derivation_says() {
 
 #[test]
 fn exhibits_hold_finite_numbers() {
-    use crate::effects::exhibit::ExhibitCell;
+    use crate::effect::exhibit::ExhibitCell;
     let exhibits = (EFFECT.exhibits)(&FittedConstants::default()).expect("exhibits");
     for exhibit in &exhibits {
         println!("## {}", exhibit.title);

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::PUBLISHED;
 use super::reference::sine_integral;
-use crate::effects::registry::{Finding, FittedConstants};
+use crate::effect::{Finding, FittedConstants};
 use crate::form::{Form, FormError};
 use crate::numeric::statistics::{mean, rms};
 

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use crate::effects::registry::{Region, Yardstick};
+use crate::effect::{Region, Yardstick};
 use crate::table::{Column, Table};
 
 /// Largest |x| for which forms are judged.

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::reference::sine_integral;
-use crate::effects::registry::Law;
+use crate::effect::Law;
 use crate::numeric::statistics::largest;
 
 /// A form as the laws see it: columns of inputs to values.

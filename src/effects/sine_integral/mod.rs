@@ -26,7 +26,7 @@ mod reference;
 
 pub use reference::{auxiliary, sine_integral};
 
-use crate::effects::registry::{Effect, FormEntry, Quantity, Reference, Source};
+use crate::effect::{Effect, FormEntry, Quantity, Reference, Source};
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {

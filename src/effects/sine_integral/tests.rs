@@ -2,7 +2,7 @@
 //! against the laws. The gates hold the fitted constants; this holds what is written.
 
 use super::EFFECT;
-use crate::effects::registry::{FittedConstants, FormEntry};
+use crate::effect::{FittedConstants, FormEntry};
 use crate::form::Form;
 
 fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {

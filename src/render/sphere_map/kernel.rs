@@ -1,6 +1,6 @@
 //! A diffraction table over the two angles of the passes.
 
-use crate::fit::low_rank::{Alignment, LowRank};
+use crate::factor::{Alignment, LowRank};
 use crate::table::{Axis, Channel, Grid};
 
 use super::Taps;
@@ -121,7 +121,7 @@ impl AngularKernel {
         let [first, second] = self.directions;
         (0..terms)
             .map(|term| {
-                let of = |lists: fn(&crate::fit::low_rank::ChannelFactors) -> &Vec<Vec<f64>>| {
+                let of = |lists: fn(&crate::factor::ChannelFactors) -> &Vec<Vec<f64>>| {
                     move |channel: usize, at: usize| {
                         let channel = factors.channels.get(channel);
                         channel.and_then(|c| lists(c).get(term)?.get(at).copied()).unwrap_or(0.0)

@@ -1,7 +1,7 @@
 //! What toisoul2017 says of its renderings, beside what a rendered scene shows.
 
-use crate::effects::registry::Finding;
-use crate::validate::measured::Measured;
+use crate::effect::Finding;
+use crate::numeric::measured::Measured;
 
 use super::rendered::{RenderedSurface, SurfaceApproximation};
 use super::scene::{Factors, Method, SurfaceScene};

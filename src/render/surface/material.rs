@@ -1,7 +1,7 @@
 //! The table of a scene and what is made of it before anything is rendered.
 
 use crate::effects::diffraction;
-use crate::fit::low_rank::{
+use crate::factor::{
     Alignment, ConvolutionNorm, ConvolvedOptions, Decomposition, LowRank, NormOptions,
     SearchOptions, convolved, directional, main_directions,
 };

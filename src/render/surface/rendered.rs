@@ -15,6 +15,7 @@ use super::speed::{self, ConvolutionTimes};
 use super::sums::{table_taps, timed};
 use crate::measured::environment::Environment;
 use crate::measured::spectra::Spectra;
+use crate::numeric::measured::Measured;
 use crate::render::backend::Backend;
 use crate::render::compare::error_map::ErrorMap;
 use crate::render::image::Image;
@@ -22,7 +23,6 @@ use crate::render::rendered::{Metrics, over_budget};
 use crate::render::scene::{self, Budget};
 use crate::render::sphere_map::{AzimuthalOperator, SphereMap, TimedPass};
 use crate::render::{Event, RenderError, Resources};
-use crate::validate::measured::Measured;
 
 /// Share of the table's energy that sums at every pixel leave out.
 const LEFT_OUT: f64 = 1e-4;

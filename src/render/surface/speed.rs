@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use crate::gpu::{self, Device, TimedForm, TimingOptions};
+use crate::numeric::measured::Measured;
 use crate::render::RenderError;
 use crate::render::sphere_map::TimedPass;
-use crate::validate::measured::Measured;
 
 /// Points at which passes are timed: each may take a thousand taps.
 const POINTS: usize = 256;

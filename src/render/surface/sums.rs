@@ -1,7 +1,7 @@
 //! Eq. 3 of toisoul2017 at points of a surface, as a sum over the cells of a table.
 
 use super::shape::Point;
-use crate::fit::low_rank::DirectionalKernel;
+use crate::factor::DirectionalKernel;
 use crate::render::RenderError;
 use crate::render::backend::{Backend, Painter};
 use crate::render::kernel::Kernel;

@@ -3,8 +3,9 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::tables::table;
-use crate::report::document::{Block, Figure, Inline, NoticeLevel, Picture, Span};
-use crate::report::plot::{Drawing, PlotError, draw};
+use crate::document::plot::PlotError;
+use crate::document::{Block, Figure, Inline, NoticeLevel, Picture, Span};
+use crate::report::plot::{Drawing, draw};
 
 /// Text with its markup.
 pub(super) fn inline(text: &Inline) -> Markup {

@@ -3,8 +3,9 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::blocks::{block, inline};
-use crate::report::document::{Page, Provenance};
-use crate::report::plot::{DARK_RULES, Drawing, PlotError};
+use crate::document::plot::PlotError;
+use crate::document::{Page, Provenance};
+use crate::report::plot::{DARK_RULES, Drawing};
 
 /// The style sheet of every page.
 const STYLE: &str = include_str!("page.css");

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::shell::render_page;
-use crate::report::document::{Page, Provenance};
-use crate::report::plot::PlotError;
-use crate::report::{json, text};
+use crate::document::plot::PlotError;
+use crate::document::{Page, Provenance};
+use crate::document::{json, text};
 
 /// What lists the figures that the last run wrote.
 const MANIFEST: &str = "figures/manifest.json";

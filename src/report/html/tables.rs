@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::blocks::{inline, safe};
-use crate::report::document::{Align, Cell, Column, ColumnKind, Table, Value, Verdict};
+use crate::document::{Align, Cell, Column, ColumnKind, Table, Value, Verdict};
 
 /// A table in a container of its own, so that a wide one scrolls and the page does not.
 pub(super) fn table(table: &Table) -> Markup {

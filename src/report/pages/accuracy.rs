@@ -1,11 +1,12 @@
 //! Errors per region and precision, laws, and parity with the device.
 
 use super::{Evidence, bare, count, device_notice, no_device, place};
-use crate::effects::registry::{self, Yardstick};
-use crate::report::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
+use crate::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
+use crate::effect::Yardstick;
+use crate::numeric::measured::Measured;
+use crate::registry;
 use crate::validate::accuracy::Accuracy;
 use crate::validate::laws::LawStanding;
-use crate::validate::measured::Measured;
 use crate::validate::parity::BINS;
 
 pub(super) fn section(evidence: &Evidence<'_>) -> Section {

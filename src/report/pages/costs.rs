@@ -1,13 +1,13 @@
 //! Error against cost, with the frontier drawn.
 
 use super::{Evidence, bare, count, device_notice, no_device};
-use crate::effects::registry::Yardstick;
-use crate::report::document::{Cell, Column, Figure, Highlight, Section, Table, Verdict};
-use crate::report::plot::{Axis, Plot, Series};
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Cell, Column, Figure, Highlight, Section, Table, Verdict};
+use crate::effect::Yardstick;
+use crate::numeric::measured::Measured;
 use crate::validate::cheapest::{Cheapest, cheapest};
 use crate::validate::cost::{Cost, Costs};
 use crate::validate::goals::{GoalVerdict, goals};
-use crate::validate::measured::Measured;
 
 pub(super) fn section(evidence: &Evidence<'_>) -> Section {
     let costs = evidence.costs;
@@ -83,7 +83,7 @@ fn cheapest_table(least: &[Cheapest]) -> Table {
         let mut row = vec![Cell::text(one.region.clone()), Cell::text(bare(&one.baseline))];
         row.extend(one.fits.iter().map(|best| match best {
             Some((fit, ratio)) => {
-                let ratio = crate::report::document_cell::number(*ratio, 2);
+                let ratio = crate::document::cell::number(*ratio, 2);
                 Cell::text(format!("`{}` ({ratio}×)", bare(fit)))
             }
             None => Cell::text("none"),

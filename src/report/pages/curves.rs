@@ -1,9 +1,10 @@
 //! Error curves: the published form beside ours.
 
 use super::{Evidence, bare};
-use crate::effects::registry::{self, Region};
-use crate::report::document::{Figure, Section};
-use crate::report::plot::{Axis, Plot, Series};
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Figure, Section};
+use crate::effect::Region;
+use crate::registry;
 use crate::table::Table;
 use crate::validate::ValidateError;
 use crate::validate::accuracy::Shipped;

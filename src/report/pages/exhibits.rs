@@ -1,10 +1,10 @@
 //! What an effect shows beyond its fits.
 
-use crate::effects::exhibit::{
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Cell, Column, Figure, Section, Table};
+use crate::effect::exhibit::{
     Exhibit, ExhibitAxis, ExhibitCell, ExhibitPlot, ExhibitSeries, ExhibitTable, Stroke,
 };
-use crate::report::document::{Cell, Column, Figure, Section, Table};
-use crate::report::plot::{Axis, Plot, Series};
 
 pub(super) fn section(exhibit: &Exhibit) -> Section {
     let mut section = Section::new(exhibit.title.as_str());

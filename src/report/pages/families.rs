@@ -1,9 +1,10 @@
 //! Fits to families of measured tables, and what finer fitting is worth.
 
 use super::{Evidence, bare, count, place};
-use crate::effects::registry::{self, Family, Member};
-use crate::report::document::{Block, Cell, Column, Figure, Section, Table};
-use crate::report::plot::{Axis, Plot, Series};
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Block, Cell, Column, Figure, Section, Table};
+use crate::effect::{Family, Member};
+use crate::registry;
 use crate::validate::ValidateError;
 use crate::validate::accuracy::Shipped;
 use crate::validate::curves::over_member;
@@ -79,9 +80,7 @@ fn forms_table(family: &FamilyStudy, cost: &[f64]) -> Table {
         let spread = form
             .constant_spread
             .iter()
-            .map(|(name, half)| {
-                format!("{name} ± {}", crate::report::document_cell::number(*half, 2))
-            })
+            .map(|(name, half)| format!("{name} ± {}", crate::document::cell::number(*half, 2)))
             .collect::<Vec<_>>()
             .join(", ");
         table.push(vec![

@@ -1,8 +1,8 @@
 //! Printed and found: claims of papers with this run's numbers beside them.
 
 use super::Evidence;
-use crate::effects::registry::Finding;
-use crate::report::document::{Cell, Column, Section, Table, Verdict};
+use crate::document::{Cell, Column, Section, Table, Verdict};
+use crate::effect::Finding;
 
 pub(super) fn section(evidence: &Evidence<'_>) -> Section {
     table_section(&evidence.study.findings)

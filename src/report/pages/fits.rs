@@ -1,9 +1,9 @@
 //! What was fitted to what, and the constants.
 
 use super::{Evidence, bare, count};
-use crate::effects::registry::Effect;
+use crate::document::{Block, Cell, Column, Section, Table, Verdict};
+use crate::effect::Effect;
 use crate::fit::outcome::{Outcome, Status};
-use crate::report::document::{Block, Cell, Column, Section, Table, Verdict};
 
 pub(super) fn exact_section(effect: &Effect) -> Section {
     let mut references = Table::new(

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::report::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
+use crate::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
 
 /// A gate and how it came out, as the report shows it.
 #[derive(Debug, Clone, PartialEq, Serialize)]

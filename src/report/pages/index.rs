@@ -1,8 +1,8 @@
 //! The index: one row per effect, and the gates at a glance.
 
 use super::{Evidence, GateLine, bare, count};
-use crate::report::document::{Block, Cell, Column, NoticeLevel, Page, Section, Table, Verdict};
-use crate::validate::measured::Measured;
+use crate::document::{Block, Cell, Column, NoticeLevel, Page, Section, Table, Verdict};
+use crate::numeric::measured::Measured;
 
 /// The first page: what there is, how it stands.
 pub fn index_page(effects: &[Evidence<'_>], gates: &[GateLine]) -> Page {

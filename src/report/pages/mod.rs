@@ -14,13 +14,13 @@ mod surfaces;
 
 use std::path::Path;
 
-use crate::effects::registry::{Effect, Member};
+use crate::document::{Block, Cell, Inline, NoticeLevel, Page, Section};
+use crate::effect::{Effect, Member};
 use crate::fit::outcome::FamilyOutcome;
 use crate::gpu::AdapterDescription;
-use crate::report::document::{Block, Cell, Inline, NoticeLevel, Page, Section};
+use crate::numeric::measured::Measured;
 use crate::validate::ValidateError;
 use crate::validate::cost::Costs;
-use crate::validate::measured::Measured;
 use crate::validate::study::Study;
 
 pub use gates::GateLine;
@@ -146,9 +146,7 @@ fn device_notice(section: Section, adapter: &Measured<AdapterDescription>) -> Se
 /// `name = value` pairs, for "where".
 fn place(at: &std::collections::BTreeMap<String, f64>) -> String {
     at.iter()
-        .map(|(name, value)| {
-            format!("{name} = {}", crate::report::document_cell::number(*value, 4))
-        })
+        .map(|(name, value)| format!("{name} = {}", crate::document::cell::number(*value, 4)))
         .collect::<Vec<_>>()
         .join(", ")
 }

@@ -1,15 +1,13 @@
 //! Scenes: reference and approximations as pictures, how they differ, what they cost.
 
 use super::{GateLine, count, gates};
-use crate::effects::registry::Finding;
+use crate::document::{Block, Cell, Column, Inline, NoticeLevel, Page, Picture, Section, Table};
+use crate::effect::Finding;
+use crate::numeric::measured::Measured;
 use crate::render::findings::findings;
 use crate::render::scene::ReferenceMethod;
 use crate::render::sheet::comparison;
 use crate::render::{RenderError, RenderedScene, Scene};
-use crate::report::document::{
-    Block, Cell, Column, Inline, NoticeLevel, Page, Picture, Section, Table,
-};
-use crate::validate::measured::Measured;
 
 /// A scene and what was rendered of it.
 #[derive(Debug)]

@@ -2,17 +2,17 @@
 //! n = ω_o = r_v costs.
 
 use super::{GateLine, gates};
-use crate::effects::registry::Finding;
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{
+    Block, Cell, Column, Figure, Inline, NoticeLevel, Page, Picture, Section, Table,
+};
+use crate::effect::Finding;
+use crate::numeric::measured::Measured;
 use crate::render::RenderError;
 use crate::render::sheet::{SURFACE_ERROR, surface_comparison};
 use crate::render::surface::findings::findings;
 use crate::render::surface::scene::{ReferenceMethod, SurfaceScene};
 use crate::render::surface::{RenderedSurface, SurfaceApproximation};
-use crate::report::document::{
-    Block, Cell, Column, Figure, Inline, NoticeLevel, Page, Picture, Section, Table,
-};
-use crate::report::plot::{Axis, Plot, Series};
-use crate::validate::measured::Measured;
 
 /// A surface scene and what was rendered of it.
 #[derive(Debug)]

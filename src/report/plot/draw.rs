@@ -8,8 +8,8 @@ use super::legend::{Legend, Swatch};
 use super::panel::{Axes, Margins, Panel, Shown};
 use super::series::{Fineness, Look, Traced};
 use super::surface::{Refused, Surface, UNITS, printable};
-use super::{Plot, PlotError, Series};
-use crate::report::document::Figure;
+use crate::document::Figure;
+use crate::document::plot::{Plot, PlotError, Series};
 
 /// Width of a figure, in pixels.
 const WIDTH: f64 = 780.0;

@@ -9,7 +9,7 @@ use super::lettering;
 use super::scale::Span;
 use super::series::{Fineness, Look, Traced, frontier_line};
 use super::surface::{Lettering, Refused, Surface};
-use super::{Along, Plot, Series, SeriesStyle};
+use crate::document::plot::{Along, Plot, Series, SeriesStyle};
 
 /// Size of tick labels, in pixels.
 pub(super) const TICK: f64 = 11.0;

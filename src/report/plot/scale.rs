@@ -1,6 +1,6 @@
 //! Scales: how values are spaced along an axis, and where its ticks stand.
 
-use super::{Axis, Scale};
+use crate::document::plot::{Axis, Scale};
 
 /// Values beyond this magnitude are treated as not finite: their differences would overflow.
 const LARGEST: f64 = 1e150;

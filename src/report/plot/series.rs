@@ -4,7 +4,8 @@ use super::frame::Frame;
 use super::frontier::{frontier, staircase};
 use super::ink::{Ink, Marker};
 use super::surface::{Refused, Surface};
-use super::{Emphasis, Series, SeriesStyle, thin};
+use crate::document::plot::{Emphasis, Series, SeriesStyle};
+use crate::document::thin;
 
 /// How a series looks, in plots and in the legend.
 #[derive(Debug, Clone, Copy)]

@@ -2,11 +2,11 @@
 
 use super::lobe_errors::{BandForm, Part};
 use super::{LARGE, LEAN, MEDIUM, PRINTED, PRINTED_LARGE};
-use crate::effects::exhibit::{
+use crate::effect::exhibit::{
     Exhibit, ExhibitAxis, ExhibitCell, ExhibitError, ExhibitPlot, ExhibitSeries, ExhibitTable,
     Stroke,
 };
-use crate::effects::registry::{FittedConstants, FormEntry};
+use crate::effect::{FittedConstants, FormEntry};
 use crate::form::FormError;
 
 /// Orders in the tables.

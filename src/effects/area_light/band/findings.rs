@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::lobe_errors::{BandForm, Part};
 use super::{MEDIUM, PRINTED, PRINTED_LARGE, sinc_squared_band};
-use crate::effects::registry::{Finding, FittedConstants};
+use crate::effect::{Finding, FittedConstants};
 use crate::effects::sine_integral::sine_integral;
 use crate::form::FormError;
 

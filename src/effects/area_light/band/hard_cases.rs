@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::regions::table;
-use crate::effects::registry::{Region, Yardstick};
+use crate::effect::{Region, Yardstick};
 use crate::table::Table;
 
 /// The hard cases, as registered.

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::REFERENCE;
 use super::hard_cases::hard_cases;
-use crate::effects::registry::{FormValues, Law};
+use crate::effect::{FormValues, Law};
 use crate::numeric::statistics::largest;
 
 const REFERENCES: &[&str] = &[REFERENCE.name];

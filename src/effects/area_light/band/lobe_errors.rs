@@ -4,8 +4,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::sinc_squared_band;
-use crate::effects::fitted_form::FittedForm;
-use crate::effects::registry::{FittedConstants, FormEntry};
+use crate::effect::fitted_form::FittedForm;
+use crate::effect::{FittedConstants, FormEntry};
 use crate::form::FormError;
 
 /// Which part of the lobe [2πn, 2π(n + 1)].

@@ -42,7 +42,7 @@ pub(super) use laws::{ADDITIVE, ANTISYMMETRIC, EVEN, POSITIVE, TOTAL};
 pub use reference::sinc_squared_band;
 pub(super) use regions::{LOBES, NARROW, SCENE_BANDS};
 
-use crate::effects::registry::{FormEntry, Quantity, Reference, Source};
+use crate::effect::{FormEntry, Quantity, Reference, Source};
 
 /// The band integral, as registered.
 pub(super) const REFERENCE: Reference = Reference {

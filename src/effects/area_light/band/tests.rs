@@ -4,7 +4,7 @@ use super::{
     HARD_CASES, LARGE, LEAN, LOBES, MEDIUM, NARROW, PRINTED, PRINTED_LARGE, PRINTED_LEAN,
     PRINTED_MEDIUM, PRINTED_SMALL, SCENE_BANDS, sinc_squared_band,
 };
-use crate::effects::registry::FormEntry;
+use crate::effect::FormEntry;
 use crate::form::Form;
 use crate::table::Table;
 

@@ -12,8 +12,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use crate::effect::DomainError;
 use crate::effects::area_light::band::sinc_squared_band;
-use crate::effects::registry::DomainError;
 
 /// Estimated relative error at which halving stops.
 const TOLERANCE: f64 = 1e-10;

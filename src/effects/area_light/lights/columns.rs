@@ -1,6 +1,6 @@
 //! Tables of points: rows of arguments of a reference, rounded to f32.
 
-use crate::effects::registry::Quantity;
+use crate::effect::Quantity;
 use crate::table::{Column, Table};
 
 const KW: Quantity = Quantity { name: "kw", unit: "1", domain: "(0, inf)" };

@@ -7,11 +7,11 @@ use super::hard_exhibit::hard_cases;
 use super::measured::{Loaded, Points, relative_l2};
 use super::regions::{KS, REGIONS};
 use super::{SPHERE, TRIANGLE};
-use crate::effects::exhibit::{
+use crate::effect::exhibit::{
     Exhibit, ExhibitAxis, ExhibitCell, ExhibitError, ExhibitPlot, ExhibitSeries, ExhibitTable,
     Stroke,
 };
-use crate::effects::registry::{FittedConstants, Reference};
+use crate::effect::{FittedConstants, Reference};
 
 /// What is done across the slices, in order of the number of slices.
 const ACROSS: [(&str, &str, Stroke); 8] = [

@@ -7,8 +7,8 @@ use super::draws::Draw;
 use super::measured::{Loaded, Points, relative_l2};
 use super::regions::REGIONS;
 use super::{SPHERE, TRIANGLE};
-use crate::effects::exhibit::ExhibitError;
-use crate::effects::registry::{Finding, FittedConstants};
+use crate::effect::exhibit::ExhibitError;
+use crate::effect::{Finding, FittedConstants};
 
 /// Command that prints the findings.
 const COMMAND: &str = "striae report";

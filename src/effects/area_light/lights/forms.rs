@@ -1,7 +1,7 @@
 //! The approximations, as registered: a light cut into slices, what is done across the slices, and a
 //! band integral along them, put together from shared pieces.
 
-use crate::effects::registry::{FormEntry, Source};
+use crate::effect::{FormEntry, Source};
 
 /// A band integral: printed with a form of Si, or without cancellation.
 macro_rules! band {

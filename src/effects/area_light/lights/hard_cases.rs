@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::columns::{SPHERE, TRIANGLE, sphere_row, table, triangle_row};
 use super::draws::{Draw, limbs, unit};
-use crate::effects::registry::{Region, Yardstick};
+use crate::effect::{Region, Yardstick};
 use crate::table::Table;
 
 /// Cases of each kind.

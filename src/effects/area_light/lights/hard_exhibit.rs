@@ -17,8 +17,8 @@ use rayon::prelude::*;
 use super::columns::{SPHERE, TRIANGLE};
 use super::hard_cases::HARD_CASES;
 use super::measured::{Loaded, Points};
-use crate::effects::exhibit::{Exhibit, ExhibitCell, ExhibitError, ExhibitTable};
-use crate::effects::registry::{FittedConstants, Quantity};
+use crate::effect::exhibit::{Exhibit, ExhibitCell, ExhibitError, ExhibitTable};
+use crate::effect::{FittedConstants, Quantity};
 use crate::numeric::statistics::percentile;
 
 /// Sets of hard cases, in the order of [`HARD_CASES`], with the forms shown.

@@ -1,7 +1,7 @@
 //! Properties that a form of a light should have whatever its error.
 
 use super::hard_cases::HARD_CASES;
-use crate::effects::registry::{FormValues, Law};
+use crate::effect::{FormValues, Law};
 
 /// Radiance is not negative, and finite.
 pub(in super::super) const NOT_NEGATIVE: Law = Law {

@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use super::forms::FORMS;
-use crate::effects::exhibit::ExhibitError;
-use crate::effects::fitted_form::FittedForm;
-use crate::effects::registry::{FittedConstants, Reference};
+use crate::effect::exhibit::ExhibitError;
+use crate::effect::fitted_form::FittedForm;
+use crate::effect::{FittedConstants, Reference};
 use crate::numeric::statistics;
 use crate::table::Table;
 

@@ -84,7 +84,7 @@ pub(super) use hard_cases::HARD_CASES;
 pub(super) use laws::NOT_NEGATIVE;
 pub(super) use regions::REGIONS;
 
-use crate::effects::registry::{DomainError, Reference};
+use crate::effect::{DomainError, Reference};
 
 /// Sphere lights, as registered.
 pub(super) const SPHERE: Reference = Reference {

@@ -6,7 +6,7 @@
 
 use super::columns::{SPHERE, TRIANGLE, sphere_row, table, triangle_row};
 use super::draws::{Draw, limbs, unit};
-use crate::effects::registry::{Region, Yardstick};
+use crate::effect::{Region, Yardstick};
 use crate::table::Table;
 
 /// Points that are judged, per region.

@@ -1,9 +1,9 @@
 use super::grating::disc;
 use super::{GREEN_NM, number, series, table};
+use crate::effect::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
 use crate::effects::diffraction::DiffractionError;
 use crate::effects::diffraction::far_field::Transform;
 use crate::effects::diffraction::table::{NORMAL, at_wavelength};
-use crate::effects::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
 use crate::numeric::statistics::relative_l2;
 
 /// Relative error of (w/2)² S at w = 2 against S at w = 1 + cos θ in any order but 0 of a rectangular

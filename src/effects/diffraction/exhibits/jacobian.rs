@@ -1,9 +1,9 @@
 use super::grating::disc;
 use super::{GREEN_NM, number, series, table};
+use crate::effect::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
 use crate::effects::diffraction::DiffractionError;
 use crate::effects::diffraction::far_field::Transform;
 use crate::effects::diffraction::table::{NORMAL, at_wavelength};
-use crate::effects::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
 
 /// Mean of 1/cos θ over the disc |h| ≤ `extent`: 2 (1 − √(1 − u²))/u².
 pub(in crate::effects::diffraction) fn mean_over_disc(extent: f64) -> f64 {

@@ -14,10 +14,10 @@ pub(super) use jacobian::{disc_furnace, mean_over_disc};
 pub(super) use wavelengths::rule_errors;
 
 use super::DiffractionError;
-use crate::effects::exhibit::{
+use crate::effect::exhibit::{
     Exhibit, ExhibitAxis, ExhibitCell, ExhibitError, ExhibitSeries, ExhibitTable, Stroke,
 };
-use crate::effects::registry::{DomainError, FittedConstants};
+use crate::effect::{DomainError, FittedConstants};
 
 /// Wavelength of what is shown at one, nm.
 pub(super) const GREEN_NM: f64 = 550.0;

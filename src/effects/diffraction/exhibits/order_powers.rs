@@ -1,10 +1,10 @@
 use super::grating::line;
 use super::{GREEN_NM, number, series, table};
+use crate::effect::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
 use crate::effects::diffraction::far_field::{FarField, Transform};
 use crate::effects::diffraction::reference::{rectangular_order_power, sinusoid_order_power};
 use crate::effects::diffraction::surfaces::Profile;
 use crate::effects::diffraction::table::NORMAL;
-use crate::effects::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
 
 const PERIOD_UM: f64 = 3.2;
 const ORDERS: u32 = 4;

@@ -3,11 +3,11 @@ use rand_chacha::ChaCha12Rng;
 
 use super::GREEN_NM;
 use super::grating::level;
+use crate::effect::exhibit::{Exhibit, ExhibitError};
 use crate::effects::diffraction::preparation::{Detrend, Missing, Preparation, USUAL, Window};
 use crate::effects::diffraction::steps::{Step, changes};
 use crate::effects::diffraction::surfaces::{Grating, Patch, Profile, grating};
 use crate::effects::diffraction::table::NORMAL;
-use crate::effects::exhibit::{Exhibit, ExhibitError};
 use crate::measured::height_map::HeightMap;
 
 const PATCH: Patch = Patch { samples: 192, side_um: 48.0, line: false };

@@ -1,5 +1,6 @@
 use super::grating::{disc, level};
 use super::{GREEN_NM, H, number, series, table};
+use crate::effect::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
 use crate::effects::diffraction::illuminant::Illuminant;
 use crate::effects::diffraction::preparation::{PreparedSurface, prepared};
 use crate::effects::diffraction::surfaces::{
@@ -8,7 +9,6 @@ use crate::effects::diffraction::surfaces::{
 use crate::effects::diffraction::table::{
     Channels, DiffractionTable, NORMAL, TableShape, of_surface,
 };
-use crate::effects::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
 use crate::measured::spectra::Spectra;
 use crate::table::Grid;
 
@@ -100,8 +100,8 @@ pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
     })
 }
 
-fn row(name: &str, table: &DiffractionTable) -> Vec<crate::effects::exhibit::ExhibitCell> {
-    let mut row = vec![crate::effects::exhibit::ExhibitCell::Text(name.into())];
+fn row(name: &str, table: &DiffractionTable) -> Vec<crate::effect::exhibit::ExhibitCell> {
+    let mut row = vec![crate::effect::exhibit::ExhibitCell::Text(name.into())];
     let shares = [&table.total, &table.inside, &table.evanescent];
     row.extend(shares.map(|share| number(share.first().copied().unwrap_or(f64::NAN))));
     row

@@ -1,12 +1,12 @@
 use super::grating::line;
 use super::{GREEN_NM, number, series, table};
+use crate::effect::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
 use crate::effects::diffraction::DiffractionError;
 use crate::effects::diffraction::illuminant::Illuminant;
 use crate::effects::diffraction::surfaces::Profile;
 use crate::effects::diffraction::table::{
     Channels, NORMAL, PatternPlacing, TableShape, of_pattern, of_surface,
 };
-use crate::effects::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
 use crate::measured::pattern::Pattern;
 use crate::measured::spectra::Spectra;
 use crate::numeric::statistics::relative_l2;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{axis, columns, grid, log_grid, series, text};
-use crate::effects::exhibit::{
+use crate::effect::exhibit::{
     Exhibit, ExhibitCell, ExhibitPlot, ExhibitSeries, ExhibitTable, Stroke,
 };
 use crate::effects::scratch_response::amplitude::{depth_factor, sinc_pi};

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{axis, columns, grid, log_grid, series, text};
-use crate::effects::exhibit::{
+use crate::effect::exhibit::{
     Exhibit, ExhibitCell, ExhibitError, ExhibitPlot, ExhibitTable, Stroke,
 };
 use crate::effects::scratch_response::amplitude::along_factor;

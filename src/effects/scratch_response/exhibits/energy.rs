@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 
 use super::{axis, columns, grid, series, text};
-use crate::effects::exhibit::{Exhibit, ExhibitCell, ExhibitPlot, ExhibitTable, Stroke};
+use crate::effect::exhibit::{Exhibit, ExhibitCell, ExhibitPlot, ExhibitTable, Stroke};
 use crate::effects::scratch_response::ensemble::{
     Base, Depth, Ends, Lit, Model, Recipe, Sum, all_models, mirror_width, scratches,
     under_normal_light,

@@ -5,7 +5,7 @@ use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
 
 use super::{axis, columns, series, text};
-use crate::effects::exhibit::{Exhibit, ExhibitCell, ExhibitPlot, ExhibitTable, Stroke};
+use crate::effect::exhibit::{Exhibit, ExhibitCell, ExhibitPlot, ExhibitTable, Stroke};
 use crate::effects::scratch_response::ensemble::{
     Base, Depth, Ends, Lit, Model, PUBLISHED, REFERENCE, Recipe, Sum, mirror_width, scratches,
     under_normal_light,

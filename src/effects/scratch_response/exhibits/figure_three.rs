@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::{axis, columns, grid, series};
-use crate::effects::exhibit::{Exhibit, ExhibitCell, ExhibitPlot, ExhibitTable, Stroke};
+use crate::effect::exhibit::{Exhibit, ExhibitCell, ExhibitPlot, ExhibitTable, Stroke};
 use crate::effects::scratch_response::amplitude::{depth_factor, sinc_pi};
 
 /// Wavelength of fig. 3, µm.

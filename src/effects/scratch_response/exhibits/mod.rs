@@ -12,10 +12,10 @@ pub(super) use energy::EnergyStudy;
 pub(super) use ensembles::EnsembleStudy;
 pub(super) use figure_three::side_lobe_energy;
 
-use crate::effects::exhibit::{
+use crate::effect::FittedConstants;
+use crate::effect::exhibit::{
     Exhibit, ExhibitAxis, ExhibitCell, ExhibitError, ExhibitSeries, Stroke,
 };
-use crate::effects::registry::FittedConstants;
 
 /// The exhibits, in the order of the page.
 pub(super) fn exhibits(_: &FittedConstants) -> Result<Vec<Exhibit>, ExhibitError> {

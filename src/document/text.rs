@@ -3,8 +3,8 @@
 use comfy_table::presets::ASCII_MARKDOWN;
 use comfy_table::{CellAlignment, ContentArrangement};
 
-use super::document::{Align, Block, Page, Provenance, Table};
-use super::document_cell::Highlight;
+use super::cell::Highlight;
+use super::{Align, Block, Page, Provenance, Table};
 
 /// Columns that running text is broken to.
 const COLUMNS: usize = 100;

@@ -3,7 +3,7 @@
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-use super::document_inline::Inline;
+use super::inline::Inline;
 
 /// One cell of a table.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! A registered form with the constants that it ships with: what findings and exhibits evaluate.
 
-use super::registry::{FittedConstants, FormEntry};
+use super::{FittedConstants, FormEntry};
 use crate::form::{Form, FormError};
 
 /// A form and one value per parameter of it.

@@ -2,7 +2,7 @@
 
 /// Of every run of consecutive points in the same pixel column, `width` pixels wide, the first,
 /// lowest, highest and last, in their order.
-pub(super) fn by_column(points: &[(f64, f64)], width: f64) -> Vec<(f64, f64)> {
+pub(crate) fn by_column(points: &[(f64, f64)], width: f64) -> Vec<(f64, f64)> {
     let column = |p: &(f64, f64)| (p.0 / width).floor();
     let mut kept = Vec::new();
     for run in points.chunk_by(|a, b| column(a) == column(b)) {

@@ -1,12 +1,16 @@
-//! The one list of effects that everything iterates.
+//! What an effect is made of: references, forms, regions, laws, families, goals, claims.
+
+pub mod exhibit;
+pub mod fitted_form;
+pub mod simulator;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use super::exhibit::{Exhibit, ExhibitError};
-use super::simulator::Simulator;
 use crate::form::{Form, FormError};
 use crate::table::Table;
+use exhibit::{Exhibit, ExhibitError};
+use simulator::Simulator;
 
 /// A quantity a reference takes or returns.
 #[derive(Debug, Clone, Copy)]
@@ -264,50 +268,3 @@ impl FormEntry {
         Form::parse(self.path, &self.source.text(), self.function)
     }
 }
-
-/// The effect called `name`.
-pub fn effect(name: &str) -> Option<&'static Effect> {
-    EFFECTS.iter().copied().find(|effect| effect.name == name)
-}
-
-/// The form called `effect/form`, with its effect.
-pub fn form(name: &str) -> Option<(&'static Effect, &'static FormEntry)> {
-    EFFECTS
-        .iter()
-        .flat_map(|effect| effect.forms.iter().map(move |form| (*effect, form)))
-        .find(|(_, form)| form.name == name)
-}
-
-/// The reference called `name`, with its effect.
-pub fn reference(name: &str) -> Option<(&'static Effect, &'static Reference)> {
-    EFFECTS
-        .iter()
-        .flat_map(|effect| effect.references.iter().map(move |reference| (*effect, reference)))
-        .find(|(_, reference)| reference.name == name)
-}
-
-/// The family called `name`, with its effect.
-pub fn family(name: &str) -> Option<(&'static Effect, &'static Family)> {
-    EFFECTS
-        .iter()
-        .flat_map(|effect| effect.families.iter().map(move |family| (*effect, family)))
-        .find(|(_, family)| family.name == name)
-}
-
-/// The simulator called `name`, with its effect.
-pub fn simulator(name: &str) -> Option<(&'static Effect, &'static Simulator)> {
-    EFFECTS
-        .iter()
-        .flat_map(|effect| effect.simulators.iter().map(move |simulator| (*effect, simulator)))
-        .find(|(_, simulator)| simulator.name == name)
-}
-
-/// Every effect. To add one: its folder, and a line here.
-pub const EFFECTS: &[&Effect] = &[
-    &super::sine_integral::EFFECT,
-    &super::fresnel::EFFECT,
-    &super::scratch_response::EFFECT,
-    &super::footprint::EFFECT,
-    &super::area_light::EFFECT,
-    &super::diffraction::EFFECT,
-];

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::document_cell::Cell;
-use super::document_inline::Inline;
+use super::cell::Cell;
+use super::inline::Inline;
 
 /// A table. Every row has one cell per column; the first column heads its row.
 #[derive(Debug, Clone, PartialEq, Serialize)]

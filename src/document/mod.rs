@@ -1,15 +1,23 @@
 //! What a page of a report holds: sections of paragraphs, tables, figures and notices.
 //!
 //! The model is written three times, as HTML, JSON and plain text, so it says what is meant and
-//! nothing about looks. A value that was not measured is a [`Missing`](super::document_cell::Value)
+//! nothing about looks. A value that was not measured is a [`Missing`](cell::Value)
 //! cell with its reason: it is never a number, a blank or a pass.
+
+pub mod cell;
+pub mod inline;
+pub mod json;
+pub mod plot;
+pub mod table;
+pub mod text;
+pub(crate) mod thin;
 
 use serde::{Serialize, Serializer};
 
-pub use super::document_cell::{Cell, Highlight, Value, Verdict};
-pub use super::document_inline::{Inline, Span};
-pub use super::document_table::{Align, Column, ColumnKind, Table};
-use super::plot::Plot;
+pub use cell::{Cell, Highlight, Value, Verdict};
+pub use inline::{Inline, Span};
+use plot::Plot;
+pub use table::{Align, Column, ColumnKind, Table};
 
 /// One page: `<slug>.html`. The page with the slug `index` leads, and lists the others.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -7,7 +7,7 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use super::document::{Page, Provenance};
+use super::{Page, Provenance};
 
 /// The report: `schema`, `provenance`, `pages`.
 ///
