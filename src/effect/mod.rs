@@ -1,5 +1,7 @@
 //! What an effect is made of: references, forms, regions, laws, families, goals, claims.
 
+pub mod candidate;
+pub mod claim;
 pub mod exhibit;
 pub mod fitted_form;
 pub mod simulator;
@@ -9,6 +11,8 @@ use std::collections::BTreeMap;
 
 use crate::form::{Form, FormError};
 use crate::table::Table;
+pub use candidate::{Candidate, CandidateError, Candidates, ConstantsOf};
+pub use claim::{Claim, ClaimError, Finding, Found};
 use exhibit::{Exhibit, ExhibitError};
 use simulator::Simulator;
 
@@ -152,21 +156,6 @@ pub struct Law {
 /// What a claim of a paper is checked with: fitted constants by fit name and parameter name.
 #[derive(Debug, Clone, Default)]
 pub struct FittedConstants(pub BTreeMap<String, BTreeMap<String, f64>>);
-
-/// A claim as printed, beside what is found.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-pub struct Finding {
-    /// Where it is printed: paper, equation or figure.
-    pub place: String,
-    /// As printed.
-    pub printed: String,
-    /// What is found, with numbers of this run.
-    pub found: String,
-    /// `holds`, `does not hold`, `differs` …
-    pub verdict: String,
-    /// The command that shows it.
-    pub command: String,
-}
 
 /// One table of a [`Family`]: what a form is fitted to under one set of conditions.
 #[derive(Debug, Clone)]

@@ -1,0 +1,73 @@
+//! Claims: what a paper prints, and the check that gives the number of this run.
+
+use serde::Serialize;
+
+/// What a paper prints, and how it is checked against evidence `E` (the candidates of an effect, a
+/// picture of a scene).
+#[derive(Debug)]
+pub struct Claim<E> {
+    /// Short name, by which a scene names the claims it checks.
+    pub name: &'static str,
+    /// Where it is printed: paper, equation or figure.
+    pub place: &'static str,
+    /// As printed.
+    pub printed: &'static str,
+    /// The command that shows it.
+    pub command: &'static str,
+    /// What is found in this run.
+    pub check: fn(&E) -> Result<Found, ClaimError>,
+}
+
+/// What a check finds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// With numbers of this run.
+    pub found: String,
+    /// `holds`, `does not hold`, `differs` …
+    pub verdict: String,
+}
+
+/// Why a claim could not be checked.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+pub struct ClaimError(Box<dyn std::error::Error + Send + Sync>);
+
+impl ClaimError {
+    /// Wraps the error that kept the check from a number.
+    pub fn new(error: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
+        Self(error.into())
+    }
+}
+
+/// A claim as printed, beside what is found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Finding {
+    /// Where it is printed: paper, equation or figure.
+    pub place: String,
+    /// As printed.
+    pub printed: String,
+    /// What is found, with numbers of this run.
+    pub found: String,
+    /// `holds`, `does not hold`, `differs` …
+    pub verdict: String,
+    /// The command that shows it.
+    pub command: String,
+}
+
+/// Checks every claim; one that cannot be checked is `not evaluated`, with the reason.
+pub fn check<E>(claims: &[Claim<E>], evidence: &E) -> Vec<Finding> {
+    let finding = |claim: &Claim<E>| {
+        let found = (claim.check)(evidence).unwrap_or_else(|error| Found {
+            found: error.to_string(),
+            verdict: "not evaluated".to_owned(),
+        });
+        Finding {
+            place: claim.place.to_owned(),
+            printed: claim.printed.to_owned(),
+            found: found.found,
+            verdict: found.verdict,
+            command: claim.command.to_owned(),
+        }
+    };
+    claims.iter().map(finding).collect()
+}
