@@ -12,7 +12,7 @@ use striae::fit::model::{FormModel, Origin};
 use striae::fit::problem::Problem;
 use striae::fit::solve::{Solution, SolverKind, solve_from};
 use striae::form::Form;
-use striae::registry;
+use striae::registry::Registry;
 
 /// As in fits/sine_integral/refit.toml.
 const START: [f64; 2] = [0.7, 0.4];
@@ -40,7 +40,7 @@ fn median_ms(mut run: impl FnMut()) -> f64 {
 }
 
 fn main() {
-    let (_, entry) = registry::form("sine_integral/published").expect("the published form");
+    let entry = Registry::builtin().form("sine_integral/published").expect("the published form");
     let form = entry.load().expect("the published form loads");
     let x: Vec<f64> = (0..2001).map(|i| -10.0 + f64::from(i) / 100.0).collect();
     let target: Vec<f64> = x.iter().map(|x| sine_integral(*x)).collect();

@@ -93,7 +93,7 @@ fn the_check_sees_a_use_of_a_lower_module() {
 #[test]
 fn every_effect_folder_is_registered_gated_and_reported() {
     let registered: BTreeSet<&str> =
-        striae::registry::EFFECTS.iter().map(|effect| effect.name).collect();
+        striae::registry::Registry::builtin().effects().iter().map(|effect| effect.name).collect();
     let gates = read(&root().join("fits/gates.toml"));
     let report: serde_json::Value =
         serde_json::from_str(&read(&root().join("reports/report.json")))
@@ -114,7 +114,7 @@ fn every_effect_folder_is_registered_gated_and_reported() {
 
 #[test]
 fn every_registered_item_is_described() {
-    for effect in striae::registry::EFFECTS {
+    for effect in striae::registry::Registry::builtin().effects() {
         assert!(!effect.references.is_empty(), "{} has no reference", effect.name);
         for reference in effect.references {
             for text in [reference.description, reference.accuracy, reference.source] {

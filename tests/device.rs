@@ -8,7 +8,7 @@ use striae::form::Form;
 use striae::gpu::{
     Cost, Device, GpuError, TimedForm, Timing, TimingOptions, list_adapters, required, time,
 };
-use striae::registry;
+use striae::registry::Registry;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -126,7 +126,7 @@ fn lookups_compile_and_agree_with_the_lanes() -> Outcome {
     let mut x = spread(-10.0, 10.0, 20_001);
     x.extend(spread(10.0, 1e4, 10_001));
     for name in ["lookup_64", "lookup_256", "lookup_1024"] {
-        let (_, entry) = registry::form(&format!("sine_integral/{name}")).ok_or(name)?;
+        let entry = Registry::builtin().form(&format!("sine_integral/{name}")).ok_or(name)?;
         let form = entry.load()?;
         let lanes = form.eval_f32(&[], &[&x])?;
         let start = Instant::now();

@@ -9,6 +9,7 @@ use striae::fit::outcome::{Outcome, Status};
 use striae::fit::solve::SolverKind;
 use striae::fit::spec::{FormChoice, ParameterChoice, Spec, Target, Weighting};
 use striae::fit::{Context, FitError, FitResult, run_spec};
+use striae::registry::Registry;
 use striae::table::{Column, Table};
 
 const DECAY: &str = "override a: f32 = 2.0;\noverride b: f32 = 1.0;\noverride c: f32 = 0.1;\n\
@@ -16,7 +17,7 @@ const DECAY: &str = "override a: f32 = 2.0;\noverride b: f32 = 1.0;\noverride c:
 const TRUTH: [(&str, f64); 3] = [("a", 3.25), ("b", 0.7), ("c", 0.5)];
 
 fn context() -> Context {
-    Context { root: PathBuf::from(env!("CARGO_MANIFEST_DIR")) }
+    Context::new(env!("CARGO_MANIFEST_DIR"), Registry::builtin())
 }
 
 fn spec(source: &str, table: Table) -> Spec {

@@ -9,7 +9,7 @@ use striae::effects::fresnel::EFFECT;
 use striae::effects::fresnel::materials::FAMILY;
 use striae::effects::fresnel::reference::{conductor, dielectric};
 use striae::form::{Form, Parameter};
-use striae::registry;
+use striae::registry::Registry;
 
 /// Stated accuracy of the references; the largest error on the oracle's points is 1.8e-15.
 const RELATIVE_ERROR: f64 = 1e-13;
@@ -143,7 +143,7 @@ fn pseudo_brewster_dips_are_held_out() {
 }
 
 fn form(name: &str) -> Form {
-    let (_, entry) = registry::form(name).expect("registered");
+    let entry = Registry::builtin().form(name).expect("registered");
     entry.load().expect("registered forms load")
 }
 

@@ -11,7 +11,7 @@ use striae::effects::area_light::lights::monte_carlo::{self, Draws, Estimate};
 use striae::effects::area_light::{polygon_light, sphere_light};
 use striae::gpu::{Device, required};
 use striae::numeric::statistics::sum;
-use striae::registry;
+use striae::registry::Registry;
 
 /// Samples per configuration.
 const SAMPLES: u32 = 100_000;
@@ -127,7 +127,7 @@ const STATED: f64 = 1e-9;
 #[test]
 fn references_match_the_oracle() {
     for name in ["sphere_light", "triangle_light"] {
-        let reference = registry::reference(name).expect("registered").1;
+        let reference = Registry::builtin().reference(name).expect("registered").1;
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/oracles");
         let mut reader =
             csv::Reader::from_path(folder.join(format!("{name}.csv"))).expect("a committed oracle");
@@ -164,11 +164,11 @@ fn references_agree_with_monte_carlo() {
 /// Where the integral does not converge there is an error; regions and hard cases have values everywhere.
 #[test]
 fn values_converge_or_are_refused() {
-    let effect = registry::effect("area_light").expect("registered");
+    let effect = Registry::builtin().effect("area_light").expect("registered");
     for region in effect.regions.iter().chain(effect.hard_cases) {
         let table = (region.points)();
         let references = ["sphere_light", "triangle_light"]
-            .map(|name| registry::reference(name).expect("registered").1);
+            .map(|name| Registry::builtin().reference(name).expect("registered").1);
         let columns = |reference: &Reference| -> Option<Vec<Vec<f64>>> {
             let names = reference.arguments.iter();
             names.map(|a| table.column(a.name).map(|column| column.values.clone())).collect()
@@ -203,11 +203,11 @@ fn values_converge_or_are_refused() {
 
 /// Forms of the two lights, with the hard cases of their reference.
 fn forms() -> Vec<(&'static FormEntry, Vec<Vec<f32>>)> {
-    let effect = registry::effect("area_light").expect("registered");
+    let effect = Registry::builtin().effect("area_light").expect("registered");
     let lights = effect.forms.iter().filter(|form| form.reference.ends_with("_light"));
     lights
         .map(|form| {
-            let reference = registry::reference(form.reference).expect("registered").1;
+            let reference = Registry::builtin().reference(form.reference).expect("registered").1;
             let tables = effect.hard_cases.iter().map(|cases| (cases.points)());
             let columns = tables
                 .filter(|table| reference.arguments.iter().all(|a| table.column(a.name).is_some()))
@@ -229,7 +229,7 @@ fn forms() -> Vec<(&'static FormEntry, Vec<Vec<f32>>)> {
 #[test]
 fn constants_are_those_of_the_band() {
     let names = |form: &str| -> Vec<String> {
-        let form = registry::form(form).expect("registered").1.load().expect("a form");
+        let form = Registry::builtin().form(form).expect("registered").load().expect("a form");
         let mut names: Vec<String> = form.parameters().iter().map(|p| p.name.clone()).collect();
         names.sort();
         names

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use striae::fit::outcome::{Outcome, Status};
 use striae::fit::spec::{FormChoice, ParameterChoice, Spec, Target, Weighting};
 use striae::fit::{Context, FitResult, run_spec};
+use striae::registry::Registry;
 use striae::table::{Column, Table};
 
 /// Problem, WGSL of its model, and whether NIST fits the logarithm of the response.
@@ -104,7 +105,7 @@ fn fit(name: &str, model: &str, problem: &Problem, start: usize) -> Outcome {
         let choice = ParameterChoice::Free { start, lower: None, upper: None };
         spec.parameters.insert(parameter.name.clone(), choice);
     }
-    match run_spec(&spec, &Context { root: PathBuf::new() }).unwrap() {
+    match run_spec(&spec, &Context::new("", Registry::builtin())).unwrap() {
         FitResult::Single(outcome) => *outcome,
         FitResult::Family(_) => unreachable!("the target is a table"),
     }

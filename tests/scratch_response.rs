@@ -8,7 +8,7 @@ use striae::effects::scratch_response::{
     Coherence, Directions, Scratch, along_factor, sinc_pi, svbrdf,
 };
 use striae::numeric::quadrature::GaussLegendre;
-use striae::registry::reference;
+use striae::registry::Registry;
 
 /// Error stated in the documentation of the references, of the largest value over all directions.
 const STATED: f64 = 1e-12;
@@ -29,7 +29,7 @@ fn oracle() -> (Vec<String>, Vec<Vec<f64>>) {
 }
 
 fn evaluate(name: &str, names: &[String], row: &[f64]) -> Result<f64, DomainError> {
-    let (_, reference) = reference(name).expect("registered");
+    let (_, reference) = Registry::builtin().reference(name).expect("registered");
     let arguments: Vec<f64> = reference
         .arguments
         .iter()

@@ -4,11 +4,11 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use super::context::Context;
-use super::fingerprint::{self, Fingerprints};
-use super::fit::{self, Job};
-use super::{Ending, check, report, specs, studies};
+use super::{Ending, check, fit, report};
 use crate::fit::Spec;
 use crate::numeric::measured::Measured;
+use crate::project::Fingerprints;
+use crate::run::Job;
 use crate::table::store::atomic_write;
 
 const MORE: &str = "\
@@ -56,15 +56,15 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
             .and_then(|text| serde_json::from_str(&text).ok())
             .unwrap_or_default()
     };
-    let device = studies::device()?;
-    let adapter = match &device {
+    let run = context.run()?;
+    let adapter = match &run.device {
         Measured::Value(device) => device.description().to_string(),
         Measured::NotMeasured(reason) => reason.clone(),
     };
     let fingerprints = Fingerprints::new(project)?;
 
     let mut jobs = Vec::new();
-    let files = specs::find(&project.fits())?;
+    let files = project.specs()?;
     let mut sources = Vec::new();
     for file in &files {
         let spec = Spec::read(&file.path)?;
@@ -81,7 +81,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
             jobs.push(Job { spec: spec.clone(), result: file.result() });
         }
     }
-    let fitted = fit::fit(&jobs, project.root(), context)?;
+    let fitted = fit::fit(&jobs, &run.fits, context)?;
     context.output.note(&format!("fit: {} of {} specs", jobs.len(), files.len()));
     state.fits = sources
         .iter()
@@ -94,14 +94,14 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     } else {
         state.converged =
             fit::ending(&fitted) == Ending::Done && (state.converged || jobs.len() == files.len());
-        let check = check::check(context, None, false)?;
-        let written = report::write(&project.reports(), &check, &device, context)?;
+        let check = run.check(None, false)?;
+        let written = report::write(&project.reports(), &run, &check, context)?;
         let folder = project.shown(&project.reports());
         context.output.note(&format!("report: {} files in {folder}", written.files.len()));
         state.verdicts = check::text(&check);
         state.passed = check.passed();
         state.report = fingerprints.of_report(&adapter, &state.fits, project)?;
-        atomic_write(&path, fingerprint::json(&state)?.as_bytes())?;
+        atomic_write(&path, format!("{}\n", serde_json::to_string_pretty(&state)?).as_bytes())?;
     }
     let verdicts = &state.verdicts;
     let summary = serde_json::json!({

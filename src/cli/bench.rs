@@ -8,10 +8,10 @@ use serde::Serialize;
 use super::Ending;
 use super::context::Context;
 use super::output::{significant, table};
-use super::studies::{self, Results, Studied};
 use crate::effect::Yardstick;
 use crate::numeric::measured::Measured;
 use crate::numeric::statistics::largest;
+use crate::run::Studied;
 use crate::validate::cheapest::{Cheapest, cheapest};
 use crate::validate::cost::{Cost, Costs};
 use crate::validate::goals::{GoalVerdict, goals};
@@ -55,13 +55,9 @@ struct Bench {
 
 /// Times, and prints the frontier.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
-    let effects = studies::effects(&arguments.effects)?;
-    let results = Results::read(context.project()?)?;
-    let device = studies::device()?;
-    let mut benches = Vec::new();
-    for effect in effects {
-        benches.push(bench(&studies::measure(effect, &results, &device, context)?));
-    }
+    let effects = context.effects(&arguments.effects)?;
+    let studied = context.run()?.studies(&effects, &|_| ())?;
+    let benches: Vec<Bench> = studied.iter().map(bench).collect();
     context.output.result(&benches, || benches.iter().map(text).collect::<Vec<_>>().join("\n"))?;
     Ok(Ending::Done)
 }
@@ -100,7 +96,7 @@ fn bench(studied: &Studied) -> Bench {
 }
 
 fn errors(studied: &Studied, fit: &str) -> Vec<(String, f64)> {
-    if let Some(study) = studied.study.fits.iter().find(|study| study.outcome.name == fit) {
+    if let Some(study) = studied.study.candidates.iter().find(|study| study.name == fit) {
         let region = |(name, accuracy): &(String, crate::validate::accuracy::Accuracy)| {
             let kind = match accuracy.yardstick {
                 Yardstick::MaxAbs => name.clone(),

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use clap::{Args, ValueEnum};
 
+use super::Ending;
 use super::context::Context;
 use super::output::{self, significant, table};
-use super::{Ending, specs, studies};
-use crate::fit::Spec;
-use crate::gate::{self, Check, Gate, Precision, Proofs, Verdict};
-use crate::gpu::{self, Device};
+use crate::gate::{self, Check, Precision, Proofs, Verdict};
+use crate::gpu;
 use crate::numeric::measured::Measured;
+use crate::run::Run;
 
 const MORE: &str = "\
 A gate of fits/gates.toml is measured afresh, with the committed constants on points that were not
@@ -60,7 +60,8 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     if arguments.prove && matches!(format, Format::Junit | Format::Github) {
         bail!("--prove prints tables or JSON; expected --format human or json");
     }
-    let check = check(context, arguments.gates.as_deref(), arguments.prove)?;
+    let gates = arguments.gates.as_deref();
+    let check = run_for(gates, context)?.check(gates, arguments.prove)?;
     match format {
         Format::Human => output::to_stdout(&text(&check))?,
         Format::Json => {
@@ -76,22 +77,16 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     Ok(if check.passed() { Ending::Done } else { Ending::GateFailed })
 }
 
-/// The verdicts on the project, by the gates in the file `gates` or its own.
-pub(super) fn check(context: &Context, gates: Option<&Path>, prove: bool) -> anyhow::Result<Check> {
+/// A run of the project with a device if a gate of `gates` needs one, or if there must be one.
+fn run_for(gates: Option<&Path>, context: &Context) -> anyhow::Result<Run> {
     let project = context.project()?;
     let gates = gate::read(gates.unwrap_or(&project.gates()))?;
-    let specs = specs::find(&project.fits())?;
-    let specs = specs.iter().map(|file| Spec::read(&file.path)).collect::<Result<Vec<_>, _>>()?;
-    Ok(Check::of(project.root(), &gates, &specs, &device(&gates)?, prove)?)
-}
-
-/// Opens a device if a gate needs one, or if there must be one.
-fn device(gates: &[Gate]) -> anyhow::Result<Measured<Device>> {
     let wanted = gates.iter().any(|gate| gate.precision == Precision::Device);
     if !wanted && !gpu::required() {
-        return Ok(Measured::NotMeasured("no gate needs a device".to_owned()));
+        let reason = "no gate needs a device".to_owned();
+        return Ok(Run::new(project, Measured::NotMeasured(reason)));
     }
-    studies::device()
+    context.run()
 }
 
 /// Tables of verdicts, and a line that sums them up.

@@ -1,10 +1,15 @@
 //! What every verb is given: where it works, and how it talks.
 
+use std::sync::Arc;
+
 use anyhow::Context as _;
 
 use super::Global;
 use super::output::Output;
-use super::project::{self, Project, ProjectError};
+use crate::effect::Effect;
+use crate::project::{Project, ProjectError, nearest};
+use crate::registry::Registry;
+use crate::run::{self, Run};
 
 /// The surroundings of one run.
 #[derive(Debug)]
@@ -13,7 +18,7 @@ pub(super) struct Context {
     pub(super) output: Output,
     /// Seed given on the command line.
     pub(super) seed: Option<u64>,
-    project: Result<Project, ProjectError>,
+    project: Result<Project, Arc<ProjectError>>,
 }
 
 impl Context {
@@ -28,17 +33,47 @@ impl Context {
         Ok(Self {
             output: Output::new(global.json, global.quiet),
             seed: global.seed,
-            project: project::find(global.project.as_deref()),
+            project: Project::find(global.project.as_deref(), Registry::builtin())
+                .map_err(Arc::new),
         })
     }
 
     /// The project, for verbs that cannot do without.
     pub(super) fn project(&self) -> anyhow::Result<&Project> {
-        self.project.as_ref().map_err(|error| anyhow::Error::new(error.clone()))
+        self.project.as_ref().map_err(|error| anyhow::Error::new(Arc::clone(error)))
     }
 
-    /// The project, for verbs that can.
-    pub(super) fn project_if_any(&self) -> Option<&Project> {
-        self.project.as_ref().ok()
+    /// Whether there is a project.
+    pub(super) fn has_project(&self) -> bool {
+        self.project.is_ok()
+    }
+
+    /// The project, or the current folder taken as one, for verbs that can do without.
+    pub(super) fn project_or_here(&self) -> Project {
+        match &self.project {
+            Ok(project) => project.clone(),
+            Err(_) => Project::at(".", Registry::builtin()),
+        }
+    }
+
+    /// A run of the project on the device, if there is one.
+    pub(super) fn run(&self) -> anyhow::Result<Run> {
+        Ok(Run::new(self.project()?, run::device()?))
+    }
+
+    /// The effects called `names`, or all of them.
+    pub(super) fn effects(&self, names: &[String]) -> anyhow::Result<Vec<&'static Effect>> {
+        let registry = self.project_or_here().registry().clone();
+        if names.is_empty() {
+            return Ok(registry.effects().to_vec());
+        }
+        let known = || registry.effects().iter().map(|effect| effect.name.to_owned());
+        let of = |name: &String| {
+            registry.effect(name).with_context(|| {
+                let nearest = nearest(name, known()).join(", ");
+                format!("there is no effect `{name}`; the nearest: {nearest}")
+            })
+        };
+        names.iter().map(of).collect()
     }
 }

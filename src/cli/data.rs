@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::specs::entries;
+use crate::project::entries;
 use crate::table::provenance::Provenance;
 
 /// A folder under `data/measured`.

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::context::Context;
 use super::output::table;
-use super::{Ending, data, specs};
+use super::{Ending, data};
 use crate::gpu;
 
 /// Tools outside that some checks use where they are installed, and what for.
@@ -88,7 +88,7 @@ fn project(context: &Context) -> anyhow::Result<Vec<Line>> {
         Err(error) => return Ok(vec![Line::new("project", "missing", error.to_string())]),
     };
     let mut lines = vec![Line::new("project", "found", project.root().display().to_string())];
-    let specs = specs::find(&project.fits())?;
+    let specs = project.specs()?;
     let fitted = specs.iter().filter(|spec| spec.result().is_file()).count();
     lines.push(Line::new("fits", "found", format!("{} specs, {fitted} results", specs.len())));
     lines.push(match crate::gate::read(&project.gates()) {

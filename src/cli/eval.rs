@@ -6,10 +6,9 @@ use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum};
 
 use super::context::Context;
-use super::evaluable::{Evaluable, Shipped};
 use super::points::Points;
 use super::{Ending, output};
-use crate::effect::Reference;
+use crate::effect::{Candidate, Reference};
 use crate::gpu::Device;
 use crate::table::store::atomic_write;
 
@@ -64,11 +63,20 @@ enum Precision {
 
 /// Evaluates and writes.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
-    let subject =
-        Evaluable::find(&arguments.name, arguments.function.as_deref(), context.project_if_any())?;
+    let name = match &arguments.function {
+        Some(function) if arguments.name.ends_with(".wgsl") => {
+            format!("{}#{function}", arguments.name)
+        }
+        Some(_) => bail!("--function is for WGSL files; `{}` is none", arguments.name),
+        None if arguments.name.ends_with(".wgsl") => {
+            bail!("a WGSL file needs --function NAME, or FILE.wgsl#NAME")
+        }
+        None => arguments.name.clone(),
+    };
+    let project = context.project_or_here();
     let points = Points::read(&arguments.input)?;
-    let results = match subject {
-        Evaluable::Reference(reference) => {
+    let results = match project.registry().reference(&name) {
+        Some((_, reference)) => {
             if let Some((name, _)) = arguments.set.first() {
                 bail!("--set {name}: the reference {} has no constants", reference.name);
             }
@@ -77,11 +85,9 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
             }
             of_reference(reference, &points)?
         }
-        Evaluable::Form(mut shipped) => {
-            for (name, value) in &arguments.set {
-                shipped.set(name, *value)?;
-            }
-            of_form(&shipped, &points, arguments.precision)?
+        None => {
+            let set = arguments.set.iter().cloned().collect();
+            of_candidate(&project.candidate_with(&name, &set)?, &points, arguments.precision)?
         }
     };
     write(&arguments.output, &points.with(&results)?)?;
@@ -115,8 +121,12 @@ fn of_reference(reference: &Reference, points: &Points) -> anyhow::Result<Result
     Ok(vec![("value".to_owned(), values)])
 }
 
-fn of_form(shipped: &Shipped, points: &Points, precision: Precision) -> anyhow::Result<Results> {
-    let form = &shipped.form;
+fn of_candidate(
+    candidate: &Candidate,
+    points: &Points,
+    precision: Precision,
+) -> anyhow::Result<Results> {
+    let form = &candidate.form;
     let names: Vec<(String, Option<&str>)> =
         form.input_columns().into_iter().map(|name| (name, None)).collect();
     let columns = points.columns(&names)?;
@@ -126,16 +136,16 @@ fn of_form(shipped: &Shipped, points: &Points, precision: Precision) -> anyhow::
     let values: Vec<Vec<String>> = match precision {
         Precision::F64 => {
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-            texts(&form.eval_f64(&shipped.constants()?, &inputs)?)
+            texts(&form.eval_f64(&candidate.constants, &inputs)?)
         }
         Precision::F32 => {
             let narrow = narrow();
             let inputs: Vec<&[f32]> = narrow.iter().map(Vec::as_slice).collect();
-            texts(&form.eval_f32(&shipped.constants_f32()?, &inputs)?)
+            texts(&form.eval_f32(&candidate.constants_f32, &inputs)?)
         }
         Precision::Gpu => {
             let device = Device::open().context("--precision gpu")?;
-            let kernel = device.compile(form, &shipped.constants_f32()?)?;
+            let kernel = device.compile(form, &candidate.constants_f32)?;
             texts(&kernel.evaluate(&narrow())?)
         }
     };

@@ -2,21 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{anyhow, bail};
+use anyhow::bail;
 use clap::{Args, ValueEnum};
-use rayon::prelude::*;
 
 use super::context::Context;
 use super::fit_table::{constants, summary};
-use super::project::Project;
-use super::specs::{self, SpecFile};
 use super::{Ending, assignment, progress};
 use crate::fit::loss::Loss;
 use crate::fit::solve::SolverKind;
 use crate::fit::spec::{FormChoice, ParameterChoice, Target, Unnamed, Weighting};
-use crate::fit::{FitResult, Spec, run, run_spec};
+use crate::fit::{self, FitResult, Spec};
 use crate::gate;
-use crate::registry;
+use crate::registry::Registry;
+use crate::run::{self, Job};
 
 const MORE: &str = "\
 Results are written to fits/<effect>/<name>.json beside their specs, each through a temporary file
@@ -121,21 +119,14 @@ fn solver(name: &str) -> Result<SolverKind, String> {
     found.ok_or_else(|| format!("expected {}", names.join(" | ")))
 }
 
-/// A spec and where its result goes.
-pub(super) struct Job {
-    /// The spec.
-    pub(super) spec: Spec,
-    /// The result file.
-    pub(super) result: PathBuf,
-}
-
 /// Runs the specs that the command line names.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     let (mut jobs, root) = jobs(arguments, context)?;
     if let Some(seed) = context.seed {
         jobs.iter_mut().for_each(|job| job.spec.seed = seed);
     }
-    let results = fit(&jobs, &root, context)?;
+    let place = fit::Context::new(root, context.project_or_here().registry());
+    let results = fit(&jobs, &place, context)?;
     context.output.result(&json(&results)?, || {
         let tables = if arguments.all { summary(&results) } else { constants(&results) };
         tables.trim_start().to_owned()
@@ -150,39 +141,17 @@ pub(super) fn ending(results: &[FitResult]) -> Ending {
     if converged { Ending::Done } else { Ending::NotConverged }
 }
 
-/// Runs and writes every job. A job that cannot be run does not keep the others from being
-/// written; the first such fault is returned, the others are noted.
-pub(super) fn fit(jobs: &[Job], root: &Path, context: &Context) -> anyhow::Result<Vec<FitResult>> {
-    let place = run::Context { root: root.to_path_buf() };
+/// Runs and writes every job; the first fault is returned, the others are noted.
+pub(super) fn fit(
+    jobs: &[Job],
+    place: &fit::Context,
+    context: &Context,
+) -> anyhow::Result<Vec<FitResult>> {
     let bar = progress::bar(context.output, jobs.len());
-    let run = |job: &Job| -> anyhow::Result<FitResult> {
-        bar.set_message(job.spec.name.clone());
-        let result = run_spec(&job.spec, &place)?;
-        result.write(&job.result)?;
-        bar.inc(1);
-        Ok(result)
-    };
-    // Fits that take constants from others come after them.
-    let mut results: Vec<Option<anyhow::Result<FitResult>>> = jobs.iter().map(|_| None).collect();
-    let mut failed: Vec<String> = Vec::new();
-    for dependent in [false, true] {
-        let stage = results.par_iter_mut().zip(jobs);
-        stage.filter(|(_, job)| job.spec.constants.is_empty() != dependent).for_each(
-            |(place, job)| {
-                let source = job.spec.constants.iter().find(|name| failed.contains(name));
-                *place = Some(match source {
-                    None => run(job),
-                    Some(name) => Err(anyhow!("{}: its source {name} failed", job.spec.name)),
-                });
-            },
-        );
-        let ran = results.iter().zip(jobs);
-        failed = ran
-            .filter(|(result, _)| matches!(result, Some(Err(_))))
-            .map(|(_, job)| job.spec.name.clone())
-            .collect();
-    }
-    let results = results.into_iter().flatten();
+    let results = run::fit(jobs, place, &|name| match name {
+        Some(name) => bar.set_message(name.to_owned()),
+        None => bar.inc(1),
+    });
     bar.finish_and_clear();
     let mut good = Vec::with_capacity(jobs.len());
     let mut fault = None;
@@ -190,10 +159,10 @@ pub(super) fn fit(jobs: &[Job], root: &Path, context: &Context) -> anyhow::Resul
         match result {
             Ok(result) => good.push(result),
             Err(error) if fault.is_none() => fault = Some(error),
-            Err(error) => context.output.note(&format!("error: {error:#}")),
+            Err(error) => context.output.note(&format!("error: {:#}", anyhow::Error::new(error))),
         }
     }
-    fault.map_or(Ok(good), Err)
+    fault.map_or(Ok(good), |error| Err(error.into()))
 }
 
 fn json(results: &[FitResult]) -> anyhow::Result<serde_json::Value> {
@@ -206,11 +175,17 @@ fn json(results: &[FitResult]) -> anyhow::Result<serde_json::Value> {
 fn jobs(arguments: &Arguments, context: &Context) -> anyhow::Result<(Vec<Job>, PathBuf)> {
     if let Some(form) = &arguments.own.form {
         let output = arguments.output.clone().unwrap_or_default();
-        let job = Job { spec: own_spec(form, &arguments.own)?, result: output };
+        let job = Job {
+            spec: own_spec(form, &arguments.own, context.project_or_here().registry())?,
+            result: output,
+        };
         return Ok((vec![job], PathBuf::new()));
     }
     if let Some(path) = &arguments.spec {
-        let root = context.project_if_any().map_or(PathBuf::new(), |p| p.root().to_path_buf());
+        let root = match context.has_project() {
+            true => context.project()?.root().to_path_buf(),
+            false => PathBuf::new(),
+        };
         let result = arguments.output.clone().unwrap_or_else(|| path.with_extension("json"));
         return Ok((vec![Job { spec: Spec::read(path)?, result }], root));
     }
@@ -221,7 +196,7 @@ fn jobs(arguments: &Arguments, context: &Context) -> anyhow::Result<(Vec<Job>, P
     }
     let project = context.project()?;
     let mut jobs = Vec::new();
-    for file in named(&arguments.names, project)? {
+    for file in project.specs_named(&arguments.names)? {
         let result = file.result();
         jobs.push(Job { spec: Spec::read(&file.path)?, result });
     }
@@ -234,22 +209,12 @@ fn jobs(arguments: &Arguments, context: &Context) -> anyhow::Result<(Vec<Job>, P
     Ok((jobs, project.root().to_path_buf()))
 }
 
-/// The specs of these names; all of them for none.
-fn named(names: &[String], project: &Project) -> anyhow::Result<Vec<SpecFile>> {
-    let all = specs::find(&project.fits())?;
-    if let Some(name) = names.iter().find(|name| !all.iter().any(|spec| spec.name == **name)) {
-        let known: Vec<&str> = all.iter().map(|spec| spec.name.as_str()).collect();
-        return Err(anyhow!("there is no spec `{name}`; there are: {}", known.join(", ")));
-    }
-    Ok(all.into_iter().filter(|spec| names.is_empty() || names.contains(&spec.name)).collect())
-}
-
-fn own_spec(form: &str, own: &Own) -> anyhow::Result<Spec> {
+fn own_spec(form: &str, own: &Own, registry: &Registry) -> anyhow::Result<Spec> {
     let choice = match &own.function {
         Some(function) => {
             FormChoice::File { path: PathBuf::from(form), function: function.clone() }
         }
-        None if registry::form(form).is_some() => FormChoice::Registered(form.to_owned()),
+        None if registry.form(form).is_some() => FormChoice::Registered(form.to_owned()),
         None => bail!("--form {form}: not a registered form; a WGSL file also needs --function"),
     };
     let weight = match own.weight.as_deref() {

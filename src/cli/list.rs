@@ -4,11 +4,11 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use super::Ending;
 use super::context::Context;
 use super::output::{significant, table};
-use super::{Ending, specs};
 use crate::gate;
-use crate::registry::EFFECTS;
+use crate::registry::Registry;
 use crate::render::AnyScene;
 
 /// List what there is: effects, references, forms, simulators, data, scenes, fits and gates
@@ -67,7 +67,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         Some(kind) => std::slice::from_ref(kind),
         None => Kind::value_variants(),
     };
-    let optional = arguments.kind.is_none() && context.project_if_any().is_none();
+    let optional = arguments.kind.is_none() && !context.has_project();
     let mut listings = Vec::new();
     for kind in kinds {
         if !(optional && kind.needs_project()) {
@@ -92,11 +92,13 @@ impl Kind {
     }
 
     fn listing(self, context: &Context) -> anyhow::Result<Listing> {
+        let project = context.project_or_here();
+        let registry = project.registry();
         Ok(match self {
-            Self::Effects => effects(),
-            Self::References => references(),
-            Self::Forms => forms(),
-            Self::Simulators => simulators(),
+            Self::Effects => effects(registry),
+            Self::References => references(registry),
+            Self::Forms => forms(registry),
+            Self::Simulators => simulators(registry),
             Self::Data => data(context)?,
             Self::Scenes => scenes(context)?,
             Self::Fits => fits(context)?,
@@ -109,13 +111,13 @@ fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
     cells.map(str::to_owned).to_vec()
 }
 
-fn effects() -> Listing {
-    let rows = EFFECTS.iter().map(|effect| row([effect.name, effect.title])).collect();
+fn effects(registry: &Registry) -> Listing {
+    let rows = registry.effects().iter().map(|effect| row([effect.name, effect.title])).collect();
     Listing { title: "effects", header: &["name", "title"], rows }
 }
 
-fn references() -> Listing {
-    let rows = EFFECTS.iter().flat_map(|effect| effect.references).map(|reference| {
+fn references(registry: &Registry) -> Listing {
+    let rows = registry.references().map(|reference| {
         let arguments = reference.arguments.iter();
         let arguments: Vec<String> =
             arguments.map(|a| format!("{} [{}] in {}", a.name, a.unit, a.domain)).collect();
@@ -134,8 +136,8 @@ fn references() -> Listing {
     }
 }
 
-fn forms() -> Listing {
-    let rows = EFFECTS.iter().flat_map(|effect| effect.forms).map(|form| {
+fn forms(registry: &Registry) -> Listing {
+    let rows = registry.forms().map(|form| {
         row([form.name, form.function, form.reference, form.description, form.citation])
     });
     Listing {
@@ -145,8 +147,8 @@ fn forms() -> Listing {
     }
 }
 
-fn simulators() -> Listing {
-    let rows = EFFECTS.iter().flat_map(|effect| effect.simulators).map(|simulator| {
+fn simulators(registry: &Registry) -> Listing {
+    let rows = registry.simulators().map(|simulator| {
         let settings: Vec<&str> = simulator.parameters.iter().map(|p| p.name).collect();
         row([simulator.name, simulator.description, &settings.join(", ")])
     });
@@ -179,7 +181,9 @@ fn scenes(context: &Context) -> anyhow::Result<Listing> {
 }
 
 fn fits(context: &Context) -> anyhow::Result<Listing> {
-    let rows = specs::find(&context.project()?.fits())?
+    let rows = context
+        .project()?
+        .specs()?
         .into_iter()
         .map(|spec| row([&spec.name, &spec.state(), &spec.description()]))
         .collect();

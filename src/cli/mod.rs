@@ -1,9 +1,7 @@
 //! The command line: one thin file per verb, which calls the modules above and prints.
 
 mod assignment;
-mod studies;
 mod report;
-mod fingerprint;
 mod bench;
 mod all;
 mod check;
@@ -15,7 +13,6 @@ mod data;
 mod doctor;
 mod emit;
 mod eval;
-mod evaluable;
 mod exit;
 mod factor;
 mod factor_pictures;
@@ -27,12 +24,10 @@ mod list;
 mod output;
 mod points;
 mod progress;
-mod project;
 mod render;
 mod render_surface;
 mod render_table;
 mod simulate;
-mod specs;
 
 use std::process::ExitCode;
 

@@ -5,19 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::Ending;
-use super::check;
 use super::context::Context;
 use super::progress;
-use super::studies::{self, Results, Studied};
-use crate::document::{Page, Provenance, Verdict};
-use crate::gate::{Check, Judgement, SCENES, Verdict as Standing};
-use crate::gpu::Device;
-use crate::numeric::measured::Measured;
-use crate::registry::EFFECTS;
-use crate::report::html::{Written, write_site};
-use crate::report::pages::{
-    Evidence, GateLine, effect_page, index_page, scenes_page, surfaces_page,
-};
+use crate::gate::Check;
+use crate::report::html::Written;
+use crate::run::Run;
 
 const MORE: &str = "\
 Writes index.html and a page per effect (self-contained, no network), report.json, report.txt and
@@ -41,98 +33,29 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         Some(folder) => folder.clone(),
         None => context.project()?.reports(),
     };
-    let device = studies::device()?;
-    let check = check::check(context, None, false)?;
-    let written = write(&folder, &check, &device, context)?;
+    let run = context.run()?;
+    let check = run.check(None, false)?;
+    let written = write(&folder, &run, &check, context)?;
     context.output.result(&serde_json::json!({ "files": written.files }), || {
         format!("{} files in {}\n", written.files.len(), folder.display())
     })?;
     Ok(Ending::Done)
 }
 
-/// Measures every effect and writes the report with the verdicts of `check`.
+/// Measures everything and writes the report with the verdicts of `check`.
 pub(super) fn write(
     folder: &Path,
+    run: &Run,
     check: &Check,
-    device: &Measured<Device>,
     context: &Context,
 ) -> anyhow::Result<Written> {
-    let project = context.project()?;
-    let results = Results::read(project)?;
-    let bar = progress::bar(context.output, EFFECTS.len() + 1);
-    let mut studied = Vec::new();
-    for effect in EFFECTS {
-        bar.set_message(format!("measuring {}", effect.name));
-        studied.push(studies::measure(effect, &results, device, context)?);
+    let project = &run.project;
+    let steps = project.registry().effects().len() + project.scenes()?.len() + 1;
+    let bar = progress::bar(context.output, steps);
+    let written = run.report(folder, check, &|what| {
+        bar.set_message(format!("measuring {what}"));
         bar.inc(1);
-    }
-    let (scenes, surfaces) = studies::scenes(device, context)?;
-    bar.set_message("writing the report");
-    let lines: Vec<GateLine> = check.gates.iter().map(line).collect();
-    let of: Vec<Vec<GateLine>> = studied.iter().map(|studied| gates_of(studied, &lines)).collect();
-    let evidence: Vec<Evidence<'_>> = studied
-        .iter()
-        .zip(&of)
-        .map(|(studied, gates)| Evidence {
-            effect: studied.effect,
-            study: &studied.study,
-            costs: &studied.costs,
-            families: &studied.families,
-            members: &studied.members,
-            gates,
-            root: project.root(),
-        })
-        .collect();
-    let mut pages = vec![index_page(&evidence, &lines)];
-    pages.extend(evidence.iter().map(effect_page).collect::<Result<Vec<Page>, _>>()?);
-    let of_scenes = |names: Vec<&str>| -> Vec<GateLine> {
-        let named = |line: &&GateLine| {
-            let rest = line.subject.strip_prefix(SCENES).unwrap_or_default();
-            names.contains(&rest.split('#').next().unwrap_or_default())
-        };
-        lines.iter().filter(named).cloned().collect()
-    };
-    if !scenes.is_empty() {
-        let names = scenes.iter().map(|of| of.scene.name.as_str()).collect();
-        pages.push(scenes_page(&scenes, &of_scenes(names))?);
-    }
-    if !surfaces.is_empty() {
-        let names = surfaces.iter().map(|of| of.scene.name.as_str()).collect();
-        pages.push(surfaces_page(&surfaces, &of_scenes(names))?);
-    }
-    let provenance = Provenance {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        adapter: device.value().map(|device| device.description().to_string()),
-        command: "striae report".to_owned(),
-        facts: Vec::new(),
-    };
-    let written = write_site(folder, &pages, &provenance)?;
+    })?;
     bar.finish_and_clear();
     Ok(written)
-}
-
-fn gates_of(studied: &Studied, lines: &[GateLine]) -> Vec<GateLine> {
-    let prefix = format!("{}/", studied.effect.name);
-    lines.iter().filter(|line| line.subject.starts_with(&prefix)).cloned().collect()
-}
-
-fn line(judgement: &Judgement) -> GateLine {
-    let gate = &judgement.gate;
-    let domain = gate.domain.as_ref().map(|domain| format!(" over {domain}")).unwrap_or_default();
-    GateLine {
-        subject: gate.subject.clone(),
-        metric: format!("{} {}{domain}", gate.metric, gate.precision),
-        measured: match (&judgement.measured, &judgement.reason) {
-            (Some(measured), _) => Ok(measured.value),
-            (None, reason) => Err(reason.clone().unwrap_or_default()),
-        },
-        limit: gate.limit,
-        verdict: match judgement.verdict {
-            Standing::Pass => Verdict::Pass,
-            Standing::Warn => Verdict::Warn,
-            Standing::NotMeasured => Verdict::NotMeasured,
-            Standing::Fail => Verdict::Fail,
-        },
-        why: gate.why.clone(),
-    }
 }

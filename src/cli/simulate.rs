@@ -12,7 +12,6 @@ use super::output::{significant, table};
 use crate::effect::exhibit::{ExhibitCell, ExhibitTable};
 use crate::effect::simulator::{Settings, Simulator};
 use crate::measured::spectra::Spectra;
-use crate::registry::{EFFECTS, simulator};
 use crate::render::image::Image;
 use crate::table::{Column, Grid, Table};
 
@@ -55,10 +54,10 @@ pub(super) struct Arguments {
 
 /// Simulates, writes and prints.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
-    let Some((_, simulator)) = simulator(&arguments.name) else {
-        let known = EFFECTS.iter().flat_map(|effect| effect.simulators).map(|s| s.name);
-        let known = known.collect::<Vec<_>>().join(", ");
-        bail!("no simulator is called `{}`; there are: {known}", arguments.name);
+    let project = context.project_or_here();
+    let Some((_, simulator)) = project.registry().simulator(&arguments.name) else {
+        let known: Vec<&str> = project.registry().simulators().map(|s| s.name).collect();
+        bail!("no simulator is called `{}`; there are: {}", arguments.name, known.join(", "));
     };
     if arguments.help_settings {
         return list_settings(simulator, context);

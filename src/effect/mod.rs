@@ -5,6 +5,7 @@ pub mod claim;
 pub mod exhibit;
 pub mod fitted_form;
 pub mod simulator;
+pub mod values;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -15,6 +16,7 @@ pub use candidate::{Candidate, CandidateError, Candidates, ConstantsOf};
 pub use claim::{Claim, ClaimError, Finding, Found};
 use exhibit::{Exhibit, ExhibitError};
 use simulator::Simulator;
+pub use values::{NoValue, ReferenceValues};
 
 /// A quantity a reference takes or returns.
 #[derive(Debug, Clone, Copy)]
@@ -249,6 +251,21 @@ impl Source {
 }
 
 impl FormEntry {
+    /// Fits that its constants are taken from.
+    pub fn constants_of(&self) -> &[String] {
+        &[]
+    }
+
+    /// The family that it is judged over, where that is no reference.
+    pub fn family(&self) -> Option<&str> {
+        None
+    }
+
+    /// The reference.
+    pub fn reference(&self) -> Option<&str> {
+        Some(self.reference)
+    }
+
     /// Parses and compiles the form.
     ///
     /// # Errors

@@ -176,6 +176,11 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// What the result is of within its family: the part of the name after `#`, if there is one.
+    pub fn label(&self) -> &str {
+        self.name.split_once('#').map_or("", |(_, label)| label)
+    }
+
     /// Number of free constants.
     pub fn free_count(&self) -> usize {
         self.parameters.values().filter(|parameter| parameter.role == "free").count()

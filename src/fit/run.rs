@@ -21,16 +21,28 @@ use super::spec::{FormChoice, Spec, Target, Weighting};
 use super::statistics::equioscillations;
 use super::target::{Noise, Points, read_table};
 use super::worth::Worth;
-use crate::effect::{Effect, Reference};
+use crate::effect::{Effect, Reference, ReferenceValues};
 use crate::form::Form;
-use crate::registry::{self, EFFECTS};
+use crate::registry::Registry;
 use crate::table::store::sha256_hex;
 
-/// Where things are.
-#[derive(Debug, Clone)]
+/// Where a fit finds what its spec names: the project's folder, the registry, and values of
+/// references that several fits of a run share.
+#[derive(Debug)]
 pub struct Context {
-    /// The project's root: `data/measured` and relative paths of specs are below it.
+    /// The project's root: `fits/`, `data/measured` and relative paths of specs are below it.
     pub root: PathBuf,
+    /// References, forms and families by name.
+    pub registry: Registry,
+    /// Values of references at fitted points.
+    pub values: ReferenceValues,
+}
+
+impl Context {
+    /// A context at `root` in which nothing has been evaluated.
+    pub fn new(root: impl Into<PathBuf>, registry: &Registry) -> Self {
+        Self { root: root.into(), registry: registry.clone(), values: ReferenceValues::default() }
+    }
 }
 
 /// The result of a spec.
@@ -54,10 +66,11 @@ pub fn run_spec(spec: &Spec, context: &Context) -> Result<FitResult, FitError> {
     let fit = Fit::new(spec, &form)?;
     match &spec.target {
         Target::Reference(name) => {
-            let (effect, reference) = registry::reference(name)
-                .ok_or_else(|| unknown("reference", name, |e| names(e.references, |r| r.name)))?;
+            let (effect, reference) = context.registry.reference(name).ok_or_else(|| {
+                unknown("reference", name, context.registry.references().map(|r| r.name))
+            })?;
             let points = match &spec.region {
-                Some(region) => fit.points_in(reference, effect, region)?,
+                Some(region) => fit.points_in(reference, effect, region, &context.values)?,
                 None => fit.points_of(reference, &spec.domain, "domain")?,
             };
             let mut outside = BTreeMap::new();
@@ -84,8 +97,10 @@ pub fn run_spec(spec: &Spec, context: &Context) -> Result<FitResult, FitError> {
 pub fn load_form(spec: &Spec, context: &Context) -> Result<Form, FitError> {
     match &spec.form {
         FormChoice::Registered(name) => {
-            let (_, entry) = registry::form(name)
-                .ok_or_else(|| unknown("form", name, |e| names(e.forms, |f| f.name)))?;
+            let registry = &context.registry;
+            let entry = registry
+                .form(name)
+                .ok_or_else(|| unknown("form", name, registry.forms().map(|f| f.name)))?;
             Ok(entry.load()?)
         }
         FormChoice::File { path, function } => {
@@ -98,13 +113,13 @@ pub fn load_form(spec: &Spec, context: &Context) -> Result<Form, FitError> {
     }
 }
 
-fn unknown(kind: &'static str, name: &str, list: fn(&Effect) -> Vec<&'static str>) -> FitError {
-    let known: Vec<&str> = EFFECTS.iter().flat_map(|effect| list(effect)).collect();
+fn unknown<N: AsRef<str>>(
+    kind: &'static str,
+    name: &str,
+    known: impl Iterator<Item = N>,
+) -> FitError {
+    let known: Vec<String> = known.map(|name| name.as_ref().to_owned()).collect();
     FitError::Unknown { kind, name: name.to_owned(), known: known.join(", ") }
-}
-
-fn names<T>(entries: &[T], name: fn(&T) -> &'static str) -> Vec<&'static str> {
-    entries.iter().map(name).collect()
 }
 
 /// A spec with its form and its parameters.
@@ -148,6 +163,7 @@ impl<'a> Fit<'a> {
         reference: &'static Reference,
         effect: &Effect,
         region: &str,
+        values: &ReferenceValues,
     ) -> Result<Points, FitError> {
         let fitted = effect.regions.iter().filter_map(|r| Some((r.name, r.fitted?)));
         let found = fitted.clone().find(|(name, _)| *name == region);
@@ -160,7 +176,7 @@ impl<'a> Fit<'a> {
             );
             return Err(self.spec.fault("region", what));
         };
-        Points::of_region(name, &points(), reference, &self.inputs, self.spec.loss)
+        Points::of_region(name, &points(), reference, values, &self.inputs, self.spec.loss)
     }
 
     fn single(
@@ -186,8 +202,10 @@ impl<'a> Fit<'a> {
     }
 
     fn family(&self, name: &str, context: &Context) -> Result<FitResult, FitError> {
-        let (_, family) = registry::family(name)
-            .ok_or_else(|| unknown("family", name, |e| names(e.families, |f| f.name)))?;
+        let registry = &context.registry;
+        let (_, family) = registry
+            .family(name)
+            .ok_or_else(|| unknown("family", name, registry.families().map(|f| f.name)))?;
         let members = (family.members)(&context.root.join("data/measured"), false)?;
         let outcomes: Vec<Outcome> = members
             .par_iter()

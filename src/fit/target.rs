@@ -1,24 +1,16 @@
 //! The points and values that a form is fitted to.
 
-use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
-
-use rayon::prelude::*;
 
 use super::error::FitError;
 use super::loss::Loss;
 use super::sampling::{MOST_POINTS, tensor_product};
 use super::spec::{Domain, Spec, Weighting};
-use crate::effect::Reference;
+use crate::effect::{NoValue, Reference, ReferenceValues};
 use crate::table::{Column, Table};
 
 /// Column of a region's points that holds weights.
 const WEIGHT: &str = "weight";
-
-/// Values of references at the fitted points of regions, by reference and region. Both are fixed
-/// when the program is built, and many forms are fitted to the same.
-static KNOWN: Mutex<BTreeMap<(&'static str, &'static str), Vec<f64>>> = Mutex::new(BTreeMap::new());
 
 /// Whether the target carries noise that the residuals can be held against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,19 +79,14 @@ impl Points {
             );
         }
         let columns = tensor_product(&axes);
-        let rows = columns.first().map_or(0, Vec::len);
-        let mut target = Vec::with_capacity(rows);
-        let mut point = vec![0.0; arguments.len()];
-        for row in 0..rows {
-            for (coordinate, column) in point.iter_mut().zip(&columns) {
-                *coordinate = column[row];
-            }
-            let value = (reference.evaluate)(&point).map_err(|source| FitError::Domain {
-                reference: reference.name.to_owned(),
-                source,
-            })?;
-            target.push(value);
-        }
+        let arguments: Vec<&[f64]> =
+            columns.iter().take(reference.arguments.len()).map(Vec::as_slice).collect();
+        let target = match arguments.is_empty() {
+            true => Vec::new(),
+            false => reference.over(&arguments).map_err(|NoValue { source, .. }| {
+                FitError::Domain { reference: reference.name.to_owned(), source }
+            })?,
+        };
         let column_of = |input: &String| {
             let index = names.iter().position(|name| name == input);
             index.and_then(|index| columns.get(index)).cloned().unwrap_or_default()
@@ -125,6 +112,7 @@ impl Points {
         region: &'static str,
         points: &Table,
         reference: &'static Reference,
+        values: &ReferenceValues,
         inputs: &[String],
         loss: Loss,
     ) -> Result<Self, FitError> {
@@ -137,23 +125,14 @@ impl Points {
             .iter()
             .map(|argument| table.require(argument.name).map(|column| column.values.as_slice()))
             .collect::<Result<Vec<_>, _>>()?;
-        let value = |row: usize| {
-            let point: Vec<f64> = columns.iter().map(|column| column[row]).collect();
-            (reference.evaluate)(&point)
-                .map_err(|source| FitError::Domain { reference: reference.name.to_owned(), source })
-        };
-        let key = (reference.name, region);
-        let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
-        let values = match known {
-            Some(values) => values,
-            None => {
-                let rows = (0..table.rows()).into_par_iter();
-                let values = rows.map(value).collect::<Result<Vec<_>, _>>()?;
-                KNOWN.lock().unwrap_or_else(PoisonError::into_inner).insert(key, values.clone());
-                values
-            }
-        };
-        table.columns.push(Column::new("target", "1", values));
+        let target = values
+            .at(reference, region, &columns)
+            .map_err(|NoValue { source, .. }| FitError::Domain {
+                reference: reference.name.to_owned(),
+                source,
+            })?
+            .to_vec();
+        table.columns.push(Column::new("target", "1", target));
         let weight = match table.column(WEIGHT) {
             Some(_) => Weighting::Column(WEIGHT.to_owned()),
             None => Weighting::Equal,

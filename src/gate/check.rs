@@ -1,16 +1,16 @@
 //! Everything that `striae check` holds a project to.
 
-use std::path::Path;
-
 use serde::Serialize;
 
 use super::{
     Evidence, Gate, GateError, Judgement, Proofs, Reproduction, Verdict, judge, prove, refit,
     reproduce,
 };
-use crate::fit::Spec;
+use crate::fit::{self, Spec};
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
+use crate::project::Project;
+use crate::validate::regions::Atlas;
 
 /// The verdicts on a project.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -31,15 +31,17 @@ impl Check {
     /// # Errors
     /// [`GateError`] if gates, specs or results are unusable, as opposed to failing.
     pub fn of(
-        root: &Path,
+        project: &Project,
+        atlas: &Atlas,
+        fits: &fit::Context,
         gates: &[Gate],
         specs: &[Spec],
         device: &Measured<Device>,
         proving: bool,
     ) -> Result<Self, GateError> {
-        let refits = refit(root, specs)?;
-        let constants = reproduce(root, specs, &refits)?;
-        let mut evidence = Evidence::new(root.to_path_buf(), refits);
+        let refits = refit(fits, specs)?;
+        let constants = reproduce(project.root(), specs, &refits)?;
+        let mut evidence = Evidence::new(project, atlas, refits);
         let judgements = judge(gates, &mut evidence, device)?;
         let proofs = if proving { Some(prove(gates, &mut evidence, device)?) } else { None };
         Ok(Self { gates: judgements, constants, proofs })

@@ -3,20 +3,21 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::subject::{Instance, Subject};
 use super::{Gate, Reached, ShippedConstants};
-use crate::fit::outcome::Outcome;
 use crate::numeric::ulp::ulp_distance_f32;
 
 /// The largest distance over all constants, in ulp of f32; or why it cannot be told.
-pub(super) fn drift(gate: &Gate, root: &Path, outcomes: &[Outcome]) -> Result<Reached, String> {
-    let [outcome] = outcomes else {
+pub(super) fn drift(gate: &Gate, root: &Path, subject: &Subject) -> Result<Reached, String> {
+    let [Instance { candidate, .. }] = subject.instances.as_slice() else {
         return Err("a family ships no single set of constants; name a member".to_owned());
     };
     let file = gate.shipped.as_deref().unwrap_or(Path::new(""));
     let shown = file.display().to_string();
     let text = std::fs::read_to_string(root.join(file)).map_err(|e| format!("{shown}: {e}"))?;
     let shipped = ShippedConstants::read(&shown, &text);
-    let fitted = outcome.parameters.iter().map(|(name, fitted)| (name.as_str(), fitted.f32));
+    let names = candidate.form.parameters().iter().map(|parameter| parameter.name.as_str());
+    let fitted = names.zip(candidate.constants_f32.iter().copied());
     distance(&shipped, fitted)
 }
 

@@ -3,6 +3,7 @@
 use super::{Gate, GateFileError};
 use crate::effect::FamilyError;
 use crate::fit::FitError;
+use crate::project::ProjectError;
 use crate::render::RenderError;
 use crate::table::TableError;
 use crate::validate::ValidateError;
@@ -14,7 +15,9 @@ pub enum GateError {
     #[error(transparent)]
     File(#[from] GateFileError),
     /// No spec has the name.
-    #[error("fits/gates.toml:{line}: gate {gate}, key subject: there is no spec for `{subject}`")]
+    #[error(
+        "fits/gates.toml:{line}: gate {gate}, key subject: there is no spec and no form `{subject}`"
+    )]
     UnknownSubject {
         /// Position of the gate, from 1.
         gate: usize,
@@ -53,6 +56,9 @@ pub enum GateError {
     /// A spec or a result is unusable.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// Something of the project could not be had.
+    #[error(transparent)]
+    Project(#[from] ProjectError),
     /// A form or a reference could not be evaluated, or the device failed.
     #[error(transparent)]
     Validate(#[from] ValidateError),

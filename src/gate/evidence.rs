@@ -1,191 +1,277 @@
-//! What a project holds for a gate to judge: specs, committed results, points with true values.
+//! What a project holds for a gate to judge: candidates with their levers, and points with true values,
+//! each made once.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::scene::Scenes;
 use super::subject::{Instance, Lever, Subject};
-use super::{Domain, Gate, GateError, Refits, committed};
-use crate::effect::{Effect, Member, Reference, Yardstick};
+use super::{Domain, Gate, GateError, Metric, Refits, committed};
+use crate::effect::{Candidate, Effect, Member, Reference, Yardstick};
+use crate::fit::Spec;
 use crate::fit::outcome::Outcome;
 use crate::fit::sampling::Axis;
 use crate::fit::spec::Target as SpecTarget;
-use crate::fit::{FitResult, Spec};
-use crate::registry;
+use crate::project::{Approximated, Project};
 use crate::table::{Column, Table};
-use crate::validate::accuracy::{Judged, Shipped, Target};
-use crate::validate::regions::judged;
+use crate::validate::accuracy::{Judged, Target};
+use crate::validate::regions::Atlas;
 use crate::validate::sampling::{self, Interval};
 
-/// A project as gates see it.
+/// The evidence of one check.
 #[derive(Debug)]
-pub struct Evidence {
-    root: PathBuf,
+pub struct Evidence<'r> {
+    project: &'r Project,
+    atlas: &'r Atlas,
     refits: Refits,
     families: BTreeMap<&'static str, Vec<Member>>,
+    judged: BTreeMap<(&'static str, String), Arc<Judged>>,
+    standing: BTreeMap<String, Found<Standing>>,
     scenes: Scenes,
 }
 
-/// A subject, or why the gate fails without being measured.
+/// Something, or why a gate on it fails.
 pub(super) type Found<T> = Result<T, String>;
 
-impl Evidence {
-    /// The project in the folder `root`, which holds `fits/` and `data/measured/`. `refits` tell
-    /// results that are stale.
-    pub fn new(root: PathBuf, refits: Refits) -> Self {
-        Self { root, refits, families: BTreeMap::new(), scenes: Scenes::default() }
+/// What is judged under the name of a fit or of a registered form.
+#[derive(Debug, Clone)]
+struct Standing {
+    spec: Option<Arc<Spec>>,
+    approximates: Approximated,
+    candidates: Vec<(Candidate, Vec<Lever>)>,
+}
+
+impl<'r> Evidence<'r> {
+    /// Evidence of `project`; `refits` are its specs, fitted again.
+    pub fn new(project: &'r Project, atlas: &'r Atlas, refits: Refits) -> Self {
+        Self {
+            project,
+            atlas,
+            refits,
+            families: BTreeMap::new(),
+            judged: BTreeMap::new(),
+            standing: BTreeMap::new(),
+            scenes: Scenes::default(),
+        }
     }
 
-    /// The project's folder.
-    pub(super) fn root(&self) -> &std::path::Path {
-        &self.root
+    pub(super) fn project(&self) -> &'r Project {
+        self.project
     }
 
-    /// The scenes named so far.
-    pub(super) fn scenes(&mut self) -> &mut Scenes {
-        &mut self.scenes
+    pub(super) fn scenes(&mut self) -> (&'r Project, &mut Scenes) {
+        (self.project, &mut self.scenes)
     }
 
-    /// The spec that a gate's subject names, with the label of the member if it names one.
-    pub(super) fn spec<'g>(&self, gate: &'g Gate) -> Result<(Spec, Option<&'g str>), GateError> {
-        let (fit, member) = gate
-            .subject
-            .split_once('#')
-            .map_or((gate.subject.as_str(), None), |(fit, member)| (fit, Some(member)));
-        let path = self.root.join("fits").join(format!("{fit}.toml"));
-        if fit.contains("..") || !path.is_file() {
-            return Err(GateError::UnknownSubject {
+    /// Fits that the subject of a gate takes its constants from.
+    pub(super) fn sources(&self, gate: &Gate) -> Vec<String> {
+        let (name, _) = parted(&gate.subject);
+        match self.standing.get(name) {
+            Some(Ok(Standing { spec: Some(spec), .. })) => spec.constants.clone(),
+            _ => {
+                let entry = self.project.registry().form(name);
+                entry.map_or_else(Vec::new, |entry| entry.constants_of().to_vec())
+            }
+        }
+    }
+
+    /// Form, constants, levers and held-out points of a gate; no points for a drift.
+    pub(super) fn subject(&mut self, gate: &Gate) -> Result<Found<Subject>, GateError> {
+        let (name, member) = parted(&gate.subject);
+        let standing = match self.standing(gate, name)? {
+            Ok(standing) => standing,
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let own_label = |name: &str| name.split_once('#').map_or("", |(_, label)| label).to_owned();
+        let labelled = match (&standing.approximates, &standing.candidates[..]) {
+            (Approximated::Family(family), [(candidate, levers)]) if standing.spec.is_none() => {
+                let members = self.members(gate, family)?;
+                let of =
+                    |member: &Member| (member.label.clone(), candidate.clone(), levers.clone());
+                members.iter().map(of).collect()
+            }
+            (_, all) => all
+                .iter()
+                .map(|(candidate, levers)| {
+                    (own_label(&candidate.name), candidate.clone(), levers.clone())
+                })
+                .collect::<Vec<_>>(),
+        };
+        let known =
+            || labelled.iter().map(|(label, ..)| label.as_str()).collect::<Vec<_>>().join(", ");
+        if let Some(wanted) = member
+            && !labelled.iter().any(|(label, ..)| label == wanted)
+        {
+            return Err(GateError::UnknownMember {
                 gate: gate.index,
                 line: gate.line,
                 subject: gate.subject.clone(),
+                known: known(),
             });
         }
-        Ok((Spec::read(&path)?, member))
+        let mut instances = Vec::new();
+        for (label, candidate, levers) in labelled {
+            if member.is_some_and(|wanted| wanted != label) {
+                continue;
+            }
+            let target = match gate.metric {
+                Metric::Drift => Target::none(),
+                _ => self.target(gate, &standing, &label, &candidate)?,
+            };
+            let label = (!label.is_empty()).then_some(label);
+            instances.push(Instance { label, candidate, target, levers });
+        }
+        Ok(Ok(Subject { instances }))
     }
 
-    /// The committed results of `spec`, all of its members or the one called `member`; or why they
-    /// cannot stand for it.
-    pub(super) fn results(
-        &self,
-        gate: &Gate,
-        spec: &Spec,
-        member: Option<&str>,
-    ) -> Result<Found<Vec<Outcome>>, GateError> {
+    /// The candidates called `name`: the committed result of a spec, where it stands, or a registered
+    /// form by itself.
+    fn standing(&mut self, gate: &Gate, name: &str) -> Result<Found<Standing>, GateError> {
+        if let Some(known) = self.standing.get(name) {
+            return Ok(known.clone());
+        }
+        let path = self.project.fits().join(format!("{name}.toml"));
+        let found = if !name.contains("..") && path.is_file() {
+            self.fitted(Spec::read(&path)?)?
+        } else {
+            let unknown = || GateError::UnknownSubject {
+                gate: gate.index,
+                line: gate.line,
+                subject: gate.subject.clone(),
+            };
+            let entry = self.project.registry().form(name).ok_or_else(unknown)?;
+            let subject = self.project.subject_of_form(entry)?.ok_or_else(unknown)?;
+            let lever = |candidate: Candidate| {
+                let levers = levers(None, &candidate);
+                (candidate, levers)
+            };
+            Ok(Standing {
+                spec: None,
+                approximates: subject.approximates,
+                candidates: subject.candidates.into_iter().map(lever).collect(),
+            })
+        };
+        self.standing.insert(name.to_owned(), found.clone());
+        Ok(found)
+    }
+
+    fn fitted(&self, spec: Spec) -> Result<Found<Standing>, GateError> {
         let refit = self.refits.get(&spec.name);
-        let outcomes = match committed::result(&self.root, spec, refit)? {
-            Ok(FitResult::Single(outcome)) => vec![*outcome],
-            Ok(FitResult::Family(family)) => family.members,
+        let result = match committed::result(self.project.root(), &spec, refit)? {
+            Ok(result) => result,
             Err(reason) => return Ok(Err(reason)),
         };
-        let outcomes: Vec<Outcome> = match member {
-            None => outcomes,
-            Some(label) => {
-                let known: Vec<String> =
-                    outcomes.iter().map(|outcome| label_of(outcome).to_owned()).collect();
-                let found: Vec<Outcome> =
-                    outcomes.into_iter().filter(|outcome| label_of(outcome) == label).collect();
-                if found.is_empty() {
-                    return Err(GateError::UnknownMember {
-                        gate: gate.index,
-                        line: gate.line,
-                        subject: gate.subject.clone(),
-                        known: known.join(", "),
-                    });
-                }
-                found
-            }
-        };
-        let bad: Vec<String> = outcomes
+        let bad: Vec<String> = result
+            .outcomes()
             .iter()
             .filter(|outcome| !committed::stands(outcome.status))
             .map(|outcome| format!("{} is {}", outcome.name, outcome.status.words()))
             .collect();
-        Ok(if bad.is_empty() { Ok(outcomes) } else { Err(bad.join("; ")) })
-    }
-
-    /// Forms, constants and held-out points of a gate.
-    pub(super) fn subject(&mut self, gate: &Gate) -> Result<Found<Subject>, GateError> {
-        let (spec, member) = self.spec(gate)?;
-        let outcomes = match self.results(gate, &spec, member)? {
-            Ok(outcomes) => outcomes,
-            Err(reason) => return Ok(Err(reason)),
-        };
-        let mut instances = Vec::new();
-        for outcome in &outcomes {
-            let shipped = Shipped::of(outcome, &self.root)?;
-            let target = self.target(gate, &spec, outcome, &shipped)?;
-            let label = outcome.name.contains('#').then(|| label_of(outcome).to_owned());
-            let levers = levers(outcome, &shipped);
-            instances.push(Instance { label, shipped, target, levers });
+        if !bad.is_empty() {
+            return Ok(Err(bad.join("; ")));
         }
-        Ok(Ok(Subject { instances }))
+        let subject = self.project.subject_of(spec.clone(), result)?;
+        let outcomes: &[Outcome] =
+            subject.fitted.as_ref().map_or(&[], |fitted| fitted.result.outcomes());
+        let candidates = subject.candidates.iter().zip(outcomes);
+        Ok(Ok(Standing {
+            candidates: candidates
+                .map(|(candidate, outcome)| (candidate.clone(), levers(Some(outcome), candidate)))
+                .collect(),
+            spec: Some(Arc::new(spec)),
+            approximates: subject.approximates,
+        }))
     }
 
     fn target(
         &mut self,
         gate: &Gate,
-        spec: &Spec,
-        outcome: &Outcome,
-        shipped: &Shipped,
+        standing: &Standing,
+        label: &str,
+        candidate: &Candidate,
     ) -> Result<Target, GateError> {
-        match &spec.target {
-            SpecTarget::Reference(name) => {
-                let (effect, reference) = registry::reference(name)
-                    .ok_or_else(|| gate.fault(format!("its target `{name}` is no reference")))?;
-                let judged = match (&gate.domain, &spec.region) {
-                    (Some(Domain::Region(name)), _) | (None, Some(name)) => {
-                        region(gate, effect, reference, name)?
-                    }
-                    _ => {
-                        let points = reference_points(gate, spec, effect, reference)?;
-                        Arc::new(Judged::new(reference, points, None, Yardstick::MaxAbs)?)
-                    }
-                };
-                Ok(judged.target(&shipped.form)?)
+        match &standing.approximates {
+            Approximated::Reference(name) => {
+                Ok(self.judged(gate, standing.spec.as_deref(), name)?.target(&candidate.form)?)
             }
-            SpecTarget::Family(name) => {
-                let label = label_of(outcome);
+            Approximated::Family(name) => {
                 let members = self.members(gate, name)?;
                 let member =
                     members.iter().find(|member| member.label == label).ok_or_else(|| {
                         gate.fault(format!("the family `{name}` has no member `{label}`"))
                     })?;
                 let rows = rows_inside(gate, &member.table)?;
-                Ok(Target::of_table(&rows, &shipped.form)?)
+                Ok(Target::of_table(&rows, &candidate.form)?)
             }
-            SpecTarget::File { path, column, .. } => {
-                let table = Table::read_csv(self.root.join(path))?;
-                let mut rows = rows_inside(gate, &table)?;
-                rename(&mut rows, column)?;
-                Ok(Target::of_table(&rows, &shipped.form)?)
-            }
-            SpecTarget::Table { label, .. } => {
-                Err(gate.fault(format!("its table `{label}` is in no file")))
-            }
+            Approximated::Table => match standing.spec.as_ref().map(|spec| &spec.target) {
+                Some(SpecTarget::File { path, column, .. }) => {
+                    let table = Table::read_csv(self.project.root().join(path))?;
+                    let mut rows = rows_inside(gate, &table)?;
+                    rename(&mut rows, column)?;
+                    Ok(Target::of_table(&rows, &candidate.form)?)
+                }
+                _ => Err(gate.fault("its table is in no file".to_owned())),
+            },
         }
     }
 
+    /// The points of a gate on the reference called `name`, with its values.
+    fn judged(
+        &mut self,
+        gate: &Gate,
+        spec: Option<&Spec>,
+        name: &str,
+    ) -> Result<Arc<Judged>, GateError> {
+        let (effect, reference) = self
+            .project
+            .registry()
+            .reference(name)
+            .ok_or_else(|| gate.fault(format!("its target `{name}` is no reference")))?;
+        match (&gate.domain, spec.and_then(|spec| spec.region.as_ref())) {
+            (Some(Domain::Region(name)), _) | (None, Some(name)) => {
+                return region(gate, effect, reference, name, self.atlas);
+            }
+            _ => {}
+        }
+        // All that the points are made of.
+        let key =
+            (reference.name, format!("{:?} {:?}", gate.domain, spec.map(|spec| &spec.domain)));
+        if let Some(known) = self.judged.get(&key) {
+            return Ok(Arc::clone(known));
+        }
+        let points = reference_points(gate, spec, effect, reference)?;
+        let judged = Arc::new(Judged::new(reference, points, None, Yardstick::MaxAbs)?);
+        self.judged.insert(key, Arc::clone(&judged));
+        Ok(judged)
+    }
+
+    /// Held-out members of a family, made once.
     fn members(&mut self, gate: &Gate, name: &str) -> Result<&[Member], GateError> {
-        let (_, family) = registry::family(name)
+        let (_, family) = self
+            .project
+            .registry()
+            .family(name)
             .ok_or_else(|| gate.fault(format!("its target `{name}` is no family")))?;
         if !self.families.contains_key(family.name) {
-            let members = (family.members)(&self.root.join("data/measured"), true)?;
+            let members = (family.members)(&self.project.data(), true)?;
             self.families.insert(family.name, members);
         }
         Ok(self.families.get(family.name).map_or(&[], Vec::as_slice))
     }
 }
 
-/// The part of `effect/name#label` after the `#`; empty for a single fit.
-pub(super) fn label_of(outcome: &Outcome) -> &str {
-    outcome.name.split_once('#').map_or("", |(_, label)| label)
+/// `effect/name` and the label of `effect/name#label`.
+fn parted(subject: &str) -> (&str, Option<&str>) {
+    subject.split_once('#').map_or((subject, None), |(name, member)| (name, Some(member)))
 }
 
-/// The free constants; the fixed ones where nothing is free; the output where there are none.
-fn levers(outcome: &Outcome, shipped: &Shipped) -> Vec<Lever> {
-    let parameters = shipped.form.parameters();
-    let role = |name: &str| outcome.parameters.get(name).map_or("", |p| p.role.as_str());
+/// The free constants; those that were given where nothing is free; the output where there are none.
+fn levers(outcome: Option<&Outcome>, candidate: &Candidate) -> Vec<Lever> {
+    let parameters = candidate.form.parameters();
+    let role = |name: &str| {
+        let fitted = outcome.and_then(|outcome| outcome.parameters.get(name));
+        fitted.map_or("fixed", |parameter| parameter.role.as_str())
+    };
     let with = |wanted: &str| -> Vec<Lever> {
         let places = |owner: &str| {
             let tied = format!("tied to {owner}");
@@ -204,7 +290,7 @@ fn levers(outcome: &Outcome, shipped: &Shipped) -> Vec<Lever> {
 /// Points of a gate on a reference over a box.
 fn reference_points(
     gate: &Gate,
-    spec: &Spec,
+    spec: Option<&Spec>,
     effect: &Effect,
     reference: &Reference,
 ) -> Result<Table, GateError> {
@@ -218,7 +304,8 @@ fn reference_points(
                 let to = points.iter().copied().fold(f64::NEG_INFINITY, f64::max);
                 (from < to).then(|| Interval { argument: argument.clone(), from, to })
             };
-            sampling::Domain { intervals: spec.domain.iter().filter_map(interval).collect() }
+            let axes = spec.into_iter().flat_map(|spec| &spec.domain);
+            sampling::Domain { intervals: axes.filter_map(interval).collect() }
         }
     };
     for Interval { argument, .. } in &domain.intervals {
@@ -235,7 +322,8 @@ fn reference_points(
         if domain.intervals.iter().any(|interval| interval.argument == argument.name) {
             continue;
         }
-        let Some(Axis::Constant(value)) = spec.domain.get(argument.name) else {
+        let axis = spec.and_then(|spec| spec.domain.get(argument.name));
+        let Some(Axis::Constant(value)) = axis else {
             return Err(gate.fault(format!("domain: no interval for `{}`", argument.name)));
         };
         constants.push((argument.name, *value));
@@ -255,6 +343,7 @@ fn region(
     effect: &Effect,
     reference: &'static Reference,
     name: &str,
+    atlas: &Atlas,
 ) -> Result<Arc<Judged>, GateError> {
     let region = effect
         .regions
@@ -270,7 +359,8 @@ fn region(
                 known.join(", ")
             ))
         })?;
-    judged(region, reference)?
+    atlas
+        .judged(region, reference)?
         .ok_or_else(|| gate.fault(format!("domain: {name} has no points for {}", reference.name)))
 }
 

@@ -15,7 +15,7 @@ use crate::validate::ValidateError;
 /// stands fails with the reason; one that lacks a device is not measured.
 pub fn judge(
     gates: &[Gate],
-    evidence: &mut Evidence,
+    evidence: &mut Evidence<'_>,
     device: &Measured<Device>,
 ) -> Result<Vec<Judgement>, GateError> {
     gates.iter().map(|gate| judge_one(gate, evidence, device)).collect()
@@ -23,19 +23,9 @@ pub fn judge(
 
 fn judge_one(
     gate: &Gate,
-    evidence: &mut Evidence,
+    evidence: &mut Evidence<'_>,
     device: &Measured<Device>,
 ) -> Result<Judgement, GateError> {
-    if gate.metric == Metric::Drift {
-        let (spec, member) = evidence.spec(gate)?;
-        return Ok(match evidence.results(gate, &spec, member)? {
-            Ok(outcomes) => match drift(gate, evidence.root(), &outcomes) {
-                Ok(reached) => Judgement::of(gate.clone(), reached),
-                Err(reason) => Judgement::failed(gate.clone(), reason),
-            },
-            Err(reason) => Judgement::failed(gate.clone(), reason),
-        });
-    }
     if gate.scene().is_some() {
         if let (Precision::Device, Measured::NotMeasured(reason)) = (gate.precision, device) {
             return Ok(Judgement::not_measured(gate.clone(), reason.clone()));
@@ -47,6 +37,12 @@ fn judge_one(
         Ok(subject) => subject,
         Err(reason) => return Ok(Judgement::failed(gate.clone(), reason)),
     };
+    if gate.metric == Metric::Drift {
+        return Ok(match drift(gate, evidence.project().root(), &subject) {
+            Ok(reached) => Judgement::of(gate.clone(), reached),
+            Err(reason) => Judgement::failed(gate.clone(), reason),
+        });
+    }
     if let (Precision::Device, Measured::NotMeasured(reason)) = (gate.precision, device) {
         return Ok(Judgement::not_measured(gate.clone(), reason.clone()));
     }
@@ -63,8 +59,8 @@ fn measure(
 ) -> Result<Option<super::Reached>, ValidateError> {
     let all = subject.instances.iter().map(|instance| {
         let label = instance.label.as_deref();
-        let (shipped, target) = (&instance.shipped, &instance.target);
-        reached(label, shipped, target, gate.metric, gate.precision, device)
+        let (candidate, target) = (&instance.candidate, &instance.target);
+        reached(label, candidate, target, gate.metric, gate.precision, device)
     });
     Ok(worst(all.collect::<Result<Vec<_>, _>>()?))
 }

@@ -56,7 +56,7 @@ pub struct Proofs {
 /// [`GateError`], as for [`super::judge`].
 pub fn prove(
     gates: &[Gate],
-    evidence: &mut Evidence,
+    evidence: &mut Evidence<'_>,
     device: &Measured<Device>,
 ) -> Result<Proofs, GateError> {
     let mut found = Proofs::default();
@@ -95,7 +95,11 @@ pub fn prove(
             found.proofs.push(proof);
         }
     }
-    let sources = sources(gates, evidence)?;
+    let of_fits = gates.iter().filter(|gate| gate.scene().is_none());
+    let sources: BTreeMap<String, Vec<String>> = of_fits
+        .map(|gate| (gate.subject.clone(), evidence.sources(gate)))
+        .filter(|(_, sources)| !sources.is_empty())
+        .collect();
     found.defects.extend(defects(&found.proofs, &sources));
     Ok(found)
 }
@@ -104,7 +108,7 @@ pub fn prove(
 /// guarded by the gates on the fits that they come from.
 fn prove_scene(
     gate: &Gate,
-    evidence: &mut Evidence,
+    evidence: &mut Evidence<'_>,
     device: &Measured<Device>,
     found: &mut Proofs,
 ) -> Result<(), GateError> {
@@ -176,8 +180,8 @@ fn fails(
         let values = match shipped {
             Some(shipped) => levers.map(|lever| drifted(instance, lever, 0.0, shipped)).collect(),
             None => {
-                let Instance { shipped, target, .. } = instance;
-                vec![reached(None, shipped, target, gate.metric, gate.precision, device)?.value]
+                let Instance { candidate, target, .. } = instance;
+                vec![reached(None, candidate, target, gate.metric, gate.precision, device)?.value]
             }
         };
         if values.iter().any(|value| beyond(*value, gate.limit)) {
@@ -214,9 +218,9 @@ fn trip(
     Ok(None)
 }
 
-fn shipped_text(gate: &Gate, evidence: &Evidence) -> Option<ShippedConstants> {
+fn shipped_text(gate: &Gate, evidence: &Evidence<'_>) -> Option<ShippedConstants> {
     let file = gate.shipped.as_deref()?;
-    let text = std::fs::read_to_string(evidence.root().join(file)).unwrap_or_default();
+    let text = std::fs::read_to_string(evidence.project().root().join(file)).unwrap_or_default();
     Some(ShippedConstants::read(&file.display().to_string(), &text))
 }
 
@@ -233,21 +237,6 @@ fn drifted(instance: &Instance, lever: &Lever, step: f64, shipped: &ShippedConst
             Err(_) => f64::NAN,
         })
         .fold(0.0, |worst: f64, other| if other.is_nan() || other > worst { other } else { worst })
-}
-
-/// The fits that the fits of the gates take constants from, by name.
-fn sources(
-    gates: &[Gate],
-    evidence: &Evidence,
-) -> Result<BTreeMap<String, Vec<String>>, GateError> {
-    let mut sources = BTreeMap::new();
-    for gate in gates.iter().filter(|gate| gate.scene().is_none()) {
-        let (spec, _) = evidence.spec(gate)?;
-        if !spec.constants.is_empty() {
-            sources.insert(spec.name, spec.constants);
-        }
-    }
-    Ok(sources)
 }
 
 /// What the proofs leave open. A constant that a fit takes from another is guarded where it is

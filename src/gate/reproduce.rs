@@ -35,9 +35,8 @@ pub type Refits = BTreeMap<String, FitResult>;
 ///
 /// # Errors
 /// The [`FitError`] of the first spec, in their order, that cannot be run.
-pub fn refit(root: &Path, specs: &[Spec]) -> Result<Refits, FitError> {
-    let context = Context { root: root.to_path_buf() };
-    let run = |spec: &Spec| Ok((spec.name.clone(), run_spec(spec, &context)?));
+pub fn refit(context: &Context, specs: &[Spec]) -> Result<Refits, FitError> {
+    let run = |spec: &Spec| Ok((spec.name.clone(), run_spec(spec, context)?));
     let results: Vec<Result<(String, FitResult), FitError>> = specs.par_iter().map(run).collect();
     results.into_iter().collect()
 }

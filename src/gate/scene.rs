@@ -207,10 +207,10 @@ fn figure(metric: Metric, found: &Metrics) -> (f64, BTreeMap<String, f64>) {
     }
 }
 
-impl Evidence {
+impl Evidence<'_> {
     /// The scene and the approximation that the gate names.
     pub(super) fn scene(&mut self, gate: &Gate) -> Result<SceneSubject<'_>, GateError> {
-        let root = self.root().to_path_buf();
-        self.scenes().subject(gate, &root)
+        let (project, scenes) = self.scenes();
+        scenes.subject(gate, project.root())
     }
 }

@@ -4,12 +4,12 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::{Metric, Precision, Reached};
+use crate::effect::Candidate;
 use crate::fit::outcome::Residuals;
 use crate::gpu::Device;
 use crate::validate::ValidateError;
 use crate::validate::accuracy::{
-    Arithmetic, RelativeL2, Shipped, Target, relative_l2, residuals_device, residuals_f32,
-    residuals_f64,
+    Arithmetic, RelativeL2, Target, relative_l2, residuals_device, residuals_f32, residuals_f64,
 };
 
 /// The fits that one gate judges together: one, or the members of a family.
@@ -25,7 +25,7 @@ pub(super) struct Instance {
     /// Label of a member of a family.
     pub(super) label: Option<String>,
     /// Form and constants.
-    pub(super) shipped: Shipped,
+    pub(super) candidate: Candidate,
     /// Points and true values.
     pub(super) target: Target,
     /// What a proof perturbs.
@@ -62,16 +62,17 @@ impl Instance {
         &self,
         lever: &Lever,
         step: f64,
-    ) -> (Cow<'_, Shipped>, Cow<'_, Target>) {
-        let (mut shipped, mut target) = (Cow::Borrowed(&self.shipped), Cow::Borrowed(&self.target));
+    ) -> (Cow<'_, Candidate>, Cow<'_, Target>) {
+        let (mut candidate, mut target) =
+            (Cow::Borrowed(&self.candidate), Cow::Borrowed(&self.target));
         match lever {
             Lever::Constant { places, .. } => {
-                let shipped = shipped.to_mut();
+                let candidate = candidate.to_mut();
                 for place in places {
-                    if let Some(value) = shipped.constants.get_mut(*place) {
+                    if let Some(value) = candidate.constants.get_mut(*place) {
                         *value = moved(*value, step);
                     }
-                    if let Some(value) = shipped.constants_f32.get_mut(*place) {
+                    if let Some(value) = candidate.constants_f32.get_mut(*place) {
                         *value = moved(f64::from(*value), step) as f32;
                     }
                 }
@@ -80,7 +81,7 @@ impl Instance {
             // factor, as values against the target over 1 + step.
             Lever::Output => target.to_mut().values.iter_mut().for_each(|v| *v /= 1.0 + step),
         }
-        (shipped, target)
+        (candidate, target)
     }
 }
 
@@ -91,7 +92,7 @@ fn moved(value: f64, step: f64) -> f64 {
 /// Measures an instance, perturbed or not.
 pub(super) fn reached(
     label: Option<&str>,
-    shipped: &Shipped,
+    candidate: &Candidate,
     target: &Target,
     metric: Metric,
     precision: Precision,
@@ -103,14 +104,14 @@ pub(super) fn reached(
             (Precision::Device, Some(device)) => Arithmetic::Device(device),
             (Precision::F32, _) | (Precision::Device, None) => Arithmetic::F32,
         };
-        let RelativeL2 { value, at } = relative_l2(shipped, target, arithmetic)?;
+        let RelativeL2 { value, at } = relative_l2(candidate, target, arithmetic)?;
         let (of, count) = (label.map(str::to_owned), target.values.len());
         return Ok(Reached { value, at, of, count });
     }
     let residuals = match (precision, device) {
-        (Precision::F64, _) => residuals_f64(shipped, target)?,
-        (Precision::Device, Some(device)) => residuals_device(shipped, target, device)?,
-        (Precision::F32, _) | (Precision::Device, None) => residuals_f32(shipped, target)?,
+        (Precision::F64, _) => residuals_f64(candidate, target)?,
+        (Precision::Device, Some(device)) => residuals_device(candidate, target, device)?,
+        (Precision::F32, _) | (Precision::Device, None) => residuals_f32(candidate, target)?,
     };
     let (value, at) = figure(metric, &residuals);
     Ok(Reached { value, at, of: label.map(str::to_owned), count: residuals.count })

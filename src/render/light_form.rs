@@ -6,7 +6,6 @@ use std::path::{Component, Path};
 use crate::fit::FitResult;
 use crate::fit::outcome::Outcome;
 use crate::form::{Form, Parameter};
-use crate::registry;
 
 use super::error::RenderError;
 
@@ -120,7 +119,8 @@ fn unsuited(name: &str, kind: LightKind, what: String) -> RenderError {
 }
 
 fn registered(form: &str, name: &str, kind: LightKind) -> Result<Form, RenderError> {
-    let (_, entry) = registry::form(form)
+    let entry = crate::registry::Registry::builtin()
+        .form(form)
         .ok_or_else(|| unsuited(name, kind, format!("no form {form} is registered")))?;
     Ok(entry.load()?)
 }

@@ -5,28 +5,15 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::effect::{Candidate, Reference, Yardstick};
 #[cfg(doc)]
-use crate::effect::Region;
-use crate::effect::{Reference, Yardstick};
+use crate::effect::{Candidate, Region};
 use crate::fit::outcome::Residuals;
 use crate::form::Form;
 use crate::gpu::{Device, Kernel};
 use crate::numeric::measured::Measured;
 use crate::table::Table;
 use crate::validate::ValidateError;
-
-/// A form with its constants, in the order of [`Form::parameters`].
-#[derive(Debug, Clone)]
-pub struct Shipped {
-    /// Name under which it is reported: a fit, or a member of a family.
-    pub name: String,
-    /// The form.
-    pub form: Form,
-    /// Constants before rounding.
-    pub constants: Vec<f64>,
-    /// Constants as shipped.
-    pub constants_f32: Vec<f32>,
-}
 
 /// Points and what the form should return there.
 #[derive(Debug, Clone)]
@@ -173,6 +160,17 @@ impl Target {
     }
 
     /// Residuals of `values` against the target.
+    /// No points.
+    pub(crate) fn none() -> Self {
+        Self {
+            arguments: Vec::new(),
+            inputs: Vec::new(),
+            values: Vec::new(),
+            groups: None,
+            yardstick: Yardstick::MaxAbs,
+        }
+    }
+
     fn residuals(&self, values: &[f64]) -> Residuals {
         Residuals::measure(&self.inputs, &self.arguments, values, &self.values)
     }
@@ -229,13 +227,13 @@ fn headline(yardstick: Yardstick, residuals: &Residuals, relative_l2: f64) -> f6
     }
 }
 
-/// Measures `shipped` against `target` in f64, in f32 and, where there is one, on the device with
+/// Measures `candidate` against `target` in f64, in f32 and, where there is one, on the device with
 /// the form's `kernel`.
 ///
 /// # Errors
 /// If the form cannot be evaluated, or the device fails.
 pub fn accuracy(
-    shipped: &Shipped,
+    candidate: &Candidate,
     target: &Target,
     kernel: &Measured<Kernel<'_>>,
 ) -> Result<Accuracy, ValidateError> {
@@ -251,9 +249,9 @@ pub fn accuracy(
             (Measured::Value(residuals), Measured::Value(headline))
         }
     };
-    let values = widened(&values_f32(shipped, target)?);
+    let values = widened(&values_f32(candidate, target)?);
     Ok(Accuracy {
-        f64: residuals_f64(shipped, target)?,
+        f64: residuals_f64(candidate, target)?,
         f32: target.residuals(&values),
         device,
         headline_device,
@@ -266,30 +264,30 @@ pub fn accuracy(
 ///
 /// # Errors
 /// If the form cannot be evaluated.
-pub fn residuals_f64(shipped: &Shipped, target: &Target) -> Result<Residuals, ValidateError> {
+pub fn residuals_f64(candidate: &Candidate, target: &Target) -> Result<Residuals, ValidateError> {
     let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
-    let values = shipped.form.eval_f64(&shipped.constants, &inputs)?;
+    let values = candidate.form.eval_f64(&candidate.constants, &inputs)?;
     Ok(target.residuals(&values[0]))
 }
 
-/// Residuals of the shipped constants in f32.
+/// Residuals of the candidate constants in f32.
 ///
 /// # Errors
 /// If the form cannot be evaluated.
-pub fn residuals_f32(shipped: &Shipped, target: &Target) -> Result<Residuals, ValidateError> {
-    Ok(target.residuals(&widened(&values_f32(shipped, target)?)))
+pub fn residuals_f32(candidate: &Candidate, target: &Target) -> Result<Residuals, ValidateError> {
+    Ok(target.residuals(&widened(&values_f32(candidate, target)?)))
 }
 
-/// Residuals of the shipped constants on the device.
+/// Residuals of the candidate constants on the device.
 ///
 /// # Errors
 /// If the device fails.
 pub fn residuals_device(
-    shipped: &Shipped,
+    candidate: &Candidate,
     target: &Target,
     device: &Device,
 ) -> Result<Residuals, ValidateError> {
-    Ok(target.residuals(&widened(&device_values(shipped, target, device)?)))
+    Ok(target.residuals(&widened(&device_values(candidate, target, device)?)))
 }
 
 /// Relative L2 error in one arithmetic: the worst group of points.
@@ -297,17 +295,17 @@ pub fn residuals_device(
 /// # Errors
 /// If the form cannot be evaluated, or the device fails.
 pub fn relative_l2(
-    shipped: &Shipped,
+    candidate: &Candidate,
     target: &Target,
     precision: Arithmetic<'_>,
 ) -> Result<RelativeL2, ValidateError> {
     let values = match precision {
         Arithmetic::F64 => {
             let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
-            shipped.form.eval_f64(&shipped.constants, &inputs)?.swap_remove(0)
+            candidate.form.eval_f64(&candidate.constants, &inputs)?.swap_remove(0)
         }
-        Arithmetic::F32 => widened(&values_f32(shipped, target)?),
-        Arithmetic::Device(device) => widened(&device_values(shipped, target, device)?),
+        Arithmetic::F32 => widened(&values_f32(candidate, target)?),
+        Arithmetic::Device(device) => widened(&device_values(candidate, target, device)?),
     };
     Ok(target.relative_l2(&values))
 }
@@ -324,20 +322,23 @@ pub enum Arithmetic<'d> {
 }
 
 /// Values in f32 at the target's points.
-pub(crate) fn values_f32(shipped: &Shipped, target: &Target) -> Result<Vec<f32>, ValidateError> {
+pub(crate) fn values_f32(
+    candidate: &Candidate,
+    target: &Target,
+) -> Result<Vec<f32>, ValidateError> {
     let narrow = narrowed(&target.inputs);
     let inputs: Vec<&[f32]> = narrow.iter().map(Vec::as_slice).collect();
-    let mut values = shipped.form.eval_f32(&shipped.constants_f32, &inputs)?;
+    let mut values = candidate.form.eval_f32(&candidate.constants_f32, &inputs)?;
     Ok(values.swap_remove(0))
 }
 
 /// Values on the device at the target's points.
 pub(crate) fn device_values(
-    shipped: &Shipped,
+    candidate: &Candidate,
     target: &Target,
     device: &Device,
 ) -> Result<Vec<f32>, ValidateError> {
-    kernel_values(&device.compile(&shipped.form, &shipped.constants_f32)?, target)
+    kernel_values(&device.compile(&candidate.form, &candidate.constants_f32)?, target)
 }
 
 /// Values of a compiled form at the target's points.

@@ -25,8 +25,8 @@ pub struct Cheapest {
 /// at the least cost, on the device or, where there is none, on f32 lanes.
 pub fn cheapest(study: &Study, costs: &Costs) -> Vec<Cheapest> {
     let mut found: Vec<Cheapest> = Vec::new();
-    for fit in &study.fits {
-        let Some(cost) = costs.forms.iter().find(|cost| cost.name == fit.outcome.name) else {
+    for fit in &study.candidates {
+        let Some(cost) = costs.forms.iter().find(|cost| cost.name == fit.name) else {
             continue;
         };
         let of_baseline = costs.forms.iter().find(|other| other.name == cost.baseline);

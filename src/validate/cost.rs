@@ -8,13 +8,13 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use crate::effect::Reference;
+use crate::effect::{Candidate, Reference};
 use crate::form::OpCount;
 use crate::gpu::{self, AdapterDescription, Device, Measurement, TimedForm, TimingOptions};
 use crate::numeric::measured::Measured;
 use crate::numeric::statistics::percentile;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Shipped, Target};
+use crate::validate::accuracy::Target;
 
 /// Cost of one form.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,9 +64,9 @@ pub struct Costs {
 
 /// A form with constants, and the points over which it is timed.
 #[derive(Debug, Clone)]
-pub struct Candidate {
+pub struct Timed {
     /// The form.
-    pub shipped: Shipped,
+    pub candidate: Candidate,
     /// Where it is evaluated.
     pub target: Target,
 }
@@ -99,7 +99,7 @@ const POINTS: usize = 1 << 14;
 /// If a form cannot be evaluated or the device fails.
 pub fn costs(
     effect: &str,
-    groups: &[Vec<Candidate>],
+    groups: &[Vec<Timed>],
     references: &[TimedReference],
     device: &Measured<Device>,
 ) -> Result<Costs, ValidateError> {
@@ -120,11 +120,11 @@ pub fn costs(
 
 /// Times the candidates of one group against each other.
 fn group_costs(
-    candidates: &[Candidate],
+    candidates: &[Timed],
     device: &Measured<Device>,
 ) -> Result<Vec<Cost>, ValidateError> {
     let inputs: Vec<Vec<Vec<f64>>> =
-        candidates.iter().map(|candidate| shuffled(&candidate.target.inputs)).collect();
+        candidates.iter().map(|timed| shuffled(&timed.target.inputs)).collect();
     let narrow: Vec<Vec<Vec<f32>>> = inputs
         .iter()
         .map(|columns| columns.iter().map(|c| c.iter().map(|v| *v as f32).collect()).collect())
@@ -132,28 +132,29 @@ fn group_costs(
     let mut wide_ns = vec![Vec::with_capacity(ROUNDS); candidates.len()];
     let mut narrow_ns = vec![Vec::with_capacity(ROUNDS); candidates.len()];
     for round in 0..ROUNDS {
-        for (at, candidate) in candidates.iter().enumerate() {
+        for (at, timed) in candidates.iter().enumerate() {
             let spent: f64 = wide_ns[at].iter().chain(&narrow_ns[at]).sum();
             if round >= LEAST_ROUNDS && spent * POINTS as f64 > ENOUGH_NS {
                 continue;
             }
             let columns: Vec<&[f64]> = inputs[at].iter().map(Vec::as_slice).collect();
-            let shipped = &candidate.shipped;
-            wide_ns[at].push(nanoseconds(|| shipped.form.eval_f64(&shipped.constants, &columns))?);
+            let candidate = &timed.candidate;
+            wide_ns[at]
+                .push(nanoseconds(|| candidate.form.eval_f64(&candidate.constants, &columns))?);
             let columns: Vec<&[f32]> = narrow[at].iter().map(Vec::as_slice).collect();
             narrow_ns[at]
-                .push(nanoseconds(|| shipped.form.eval_f32(&shipped.constants_f32, &columns))?);
+                .push(nanoseconds(|| candidate.form.eval_f32(&candidate.constants_f32, &columns))?);
         }
     }
     let timings = device_timings(candidates, &narrow, device)?;
-    let baseline = candidates.first().map(|c| c.shipped.name.clone()).unwrap_or_default();
+    let baseline = candidates.first().map(|c| c.candidate.name.clone()).unwrap_or_default();
     Ok(candidates
         .iter()
         .enumerate()
-        .map(|(at, candidate)| Cost {
-            name: candidate.shipped.name.clone(),
+        .map(|(at, timed)| Cost {
+            name: timed.candidate.name.clone(),
             baseline: baseline.clone(),
-            operations: candidate.shipped.form.op_count(),
+            operations: timed.candidate.form.op_count(),
             lanes_f64_ns: percentile(&wide_ns[at], 50.0),
             lanes_f32_ns: percentile(&narrow_ns[at], 50.0),
             device: timings[at].clone(),
@@ -183,7 +184,7 @@ fn shuffled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
 }
 
 fn device_timings(
-    candidates: &[Candidate],
+    candidates: &[Timed],
     inputs: &[Vec<Vec<f32>>],
     device: &Measured<Device>,
 ) -> Result<Vec<Measured<Measurement>>, ValidateError> {
@@ -196,14 +197,14 @@ fn device_timings(
     let forms: Vec<TimedForm<'_>> = candidates
         .iter()
         .zip(inputs)
-        .map(|(candidate, inputs)| TimedForm {
-            name: &candidate.shipped.name,
-            form: &candidate.shipped.form,
-            parameters: &candidate.shipped.constants_f32,
+        .map(|(timed, inputs)| TimedForm {
+            name: &timed.candidate.name,
+            form: &timed.candidate.form,
+            parameters: &timed.candidate.constants_f32,
             inputs,
         })
         .collect();
-    let baseline = candidates.first().map(|candidate| candidate.shipped.name.clone());
+    let baseline = candidates.first().map(|timed| timed.candidate.name.clone());
     let options = TimingOptions { baseline, ..TimingOptions::default() };
     let timings = gpu::time(device, &forms, &options)?;
     Ok(timings

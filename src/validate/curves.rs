@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::effect::{Member, Reference};
+use crate::effect::{Candidate, Member, Reference};
 use crate::table::{Column, Table};
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Shipped, Target, values_f32};
+use crate::validate::accuracy::{Target, values_f32};
 
 /// Error of one form along its argument.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -16,12 +16,12 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Error of `shipped` at `arguments` against a reference of one argument.
+/// Error of `candidate` at `arguments` against a reference of one argument.
 ///
 /// # Errors
 /// If the reference takes another number of arguments, or either has no value there.
 pub fn against_reference(
-    shipped: &Shipped,
+    candidate: &Candidate,
     reference: &Reference,
     arguments: &[f64],
 ) -> Result<Curve, ValidateError> {
@@ -36,19 +36,19 @@ pub fn against_reference(
         }],
         origin: format!("points of {}", reference.name),
     };
-    error(shipped, &Target::of_reference(reference, points, &shipped.form)?)
+    error(candidate, &Target::of_reference(reference, points, &candidate.form)?)
 }
 
-/// Error of `shipped` over a family member's held-out table, along the first argument.
+/// Error of `candidate` over a family member's held-out table, along the first argument.
 ///
 /// # Errors
 /// If the table lacks a column, or the form cannot be evaluated.
-pub fn over_member(shipped: &Shipped, member: &Member) -> Result<Curve, ValidateError> {
-    error(shipped, &Target::of_table(&member.table, &shipped.form)?)
+pub fn over_member(candidate: &Candidate, member: &Member) -> Result<Curve, ValidateError> {
+    error(candidate, &Target::of_table(&member.table, &candidate.form)?)
 }
 
-fn error(shipped: &Shipped, target: &Target) -> Result<Curve, ValidateError> {
-    let values = values_f32(shipped, target)?;
+fn error(candidate: &Candidate, target: &Target) -> Result<Curve, ValidateError> {
+    let values = values_f32(candidate, target)?;
     let mut points: Vec<(f64, f64)> = target
         .inputs
         .first()
@@ -58,5 +58,5 @@ fn error(shipped: &Shipped, target: &Target) -> Result<Curve, ValidateError> {
         .map(|(argument, (value, truth))| (*argument, f64::from(*value) - truth))
         .collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Ok(Curve { name: shipped.name.clone(), points })
+    Ok(Curve { name: candidate.name.clone(), points })
 }

@@ -79,7 +79,7 @@ pub struct Choice {
 pub fn over_family(
     fit: &str,
     members: &[Member],
-    outcomes: &[&Outcome],
+    outcomes: &[Outcome],
     residuals: Vec<Residuals>,
 ) -> FormOverFamily {
     let count: usize = residuals.iter().map(|r| r.count).sum();
@@ -88,7 +88,7 @@ pub fn over_family(
         residuals.iter().zip(members).max_by(|(a, _), (b, _)| a.max_abs.total_cmp(&b.max_abs));
     FormOverFamily {
         fit: fit.to_owned(),
-        free: outcomes.first().map_or(0, |outcome| outcome.free_count()),
+        free: outcomes.first().map_or(0, Outcome::free_count),
         rms: if count == 0 { f64::NAN } else { (sum / count as f64).sqrt() },
         max_abs: worst.map_or(f64::NAN, |(residuals, _)| residuals.max_abs),
         max_member: worst.map(|(_, member)| member.label.clone()).unwrap_or_default(),
@@ -106,9 +106,10 @@ pub fn over_family(
     }
 }
 
-fn constant_spread(members: &[Member], outcomes: &[&Outcome]) -> BTreeMap<String, f64> {
+fn constant_spread(members: &[Member], outcomes: &[Outcome]) -> BTreeMap<String, f64> {
     let mut cells: BTreeMap<(&str, &str), Vec<&Outcome>> = BTreeMap::new();
-    for (member, outcome) in members.iter().zip(outcomes) {
+    let of = |member: &Member| outcomes.iter().find(|outcome| outcome.label() == member.label);
+    for (member, outcome) in members.iter().filter_map(|member| Some((member, of(member)?))) {
         cells.entry((&member.group, &member.band)).or_default().push(outcome);
     }
     let mut halves: BTreeMap<String, Vec<f64>> = BTreeMap::new();

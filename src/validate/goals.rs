@@ -36,7 +36,7 @@ pub struct GoalVerdict {
 /// error is NaN.
 pub fn goals(effect: &Effect, study: &Study, costs: &Costs) -> Vec<GoalVerdict> {
     let verdict = |goal: &crate::effect::Goal| {
-        let fit = study.fits.iter().find(|fit| fit.outcome.name == goal.fit);
+        let fit = study.candidates.iter().find(|fit| fit.name == goal.fit);
         let accuracy = fit.and_then(|fit| {
             let mut all = fit.regions.iter().chain(&fit.hard_cases);
             all.find(|(name, _)| name == goal.region).map(|(_, accuracy)| accuracy)

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::effect::{Effect, Law};
-use crate::validate::accuracy::Shipped;
+use crate::effect::{Candidate, Effect, Law};
 
 /// How a form stands to a law.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,27 +31,30 @@ pub enum LawStanding {
     Violated,
 }
 
-/// Judges the laws of `effect` that apply to `shipped`, in f32. A form that cannot be evaluated
+/// Judges the laws of `effect` that apply to `candidate`, in f32. A form that cannot be evaluated
 /// violates.
-pub fn judge(effect: &Effect, form_name: &str, shipped: &Shipped) -> Vec<LawVerdict> {
-    let entry = effect.forms.iter().find(|form| form.name == form_name);
-    let reference = entry.map_or("", |form| form.reference);
+pub fn judge(
+    effect: &Effect,
+    form_name: &str,
+    reference: &str,
+    candidate: &Candidate,
+) -> Vec<LawVerdict> {
     let applies = |law: &&Law| law.references.is_empty() || law.references.contains(&reference);
-    effect.laws.iter().filter(applies).map(|law| verdict(law, form_name, shipped)).collect()
+    effect.laws.iter().filter(applies).map(|law| verdict(law, form_name, candidate)).collect()
 }
 
-fn verdict(law: &Law, form_name: &str, shipped: &Shipped) -> LawVerdict {
+fn verdict(law: &Law, form_name: &str, candidate: &Candidate) -> LawVerdict {
     let evaluate = |inputs: &[Vec<f32>]| {
         let columns: Vec<&[f32]> = inputs.iter().map(Vec::as_slice).collect();
-        shipped
+        candidate
             .form
-            .eval_f32(&shipped.constants_f32, &columns)
+            .eval_f32(&candidate.constants_f32, &columns)
             .map(|mut values| values.swap_remove(0))
             .unwrap_or_else(|_| vec![f32::NAN; inputs.first().map_or(1, Vec::len)])
     };
     let violation = (law.violation)(&evaluate);
     let known =
-        law.known_violations.iter().find(|(name, _)| *name == form_name || *name == shipped.name);
+        law.known_violations.iter().find(|(name, _)| *name == form_name || *name == candidate.name);
     let standing = match known {
         _ if violation <= law.tolerance => LawStanding::Holds,
         // A reason for an error excuses no NaN and no infinity.
@@ -61,7 +63,7 @@ fn verdict(law: &Law, form_name: &str, shipped: &Shipped) -> LawVerdict {
     };
     LawVerdict {
         law: law.name.to_owned(),
-        fit: shipped.name.clone(),
+        fit: candidate.name.clone(),
         violation,
         tolerance: law.tolerance,
         verdict: standing,

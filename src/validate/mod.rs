@@ -1,7 +1,6 @@
 //! Validation: accuracy on points that were not fitted, laws, parity with the device, and cost.
 
 pub mod accuracy;
-pub mod candidates;
 pub mod cheapest;
 pub mod cost;
 pub mod curves;
@@ -12,11 +11,13 @@ pub mod parity;
 pub(crate) mod regions;
 pub mod sampling;
 pub mod study;
+pub mod timed;
 
 use crate::effect::DomainError;
 use crate::effect::exhibit::ExhibitError;
 use crate::form::FormError;
 use crate::gpu::GpuError;
+use crate::project::ProjectError;
 
 /// Why something could not be validated.
 #[derive(Debug, thiserror::Error)]
@@ -50,24 +51,9 @@ pub enum ValidateError {
     /// What the effect shows beyond its fits could not be made.
     #[error(transparent)]
     Exhibit(#[from] ExhibitError),
-    /// A form's file cannot be read.
-    #[error("form `{name}` is not registered, and no readable file: {source}")]
-    UnreadableForm {
-        /// Name or path.
-        name: String,
-        /// The fault.
-        source: std::io::Error,
-    },
-    /// A result lacks a constant of its form.
-    #[error(
-        "fit `{fit}` has no constant `{constant}`, which its form needs: run `striae fit {fit}`"
-    )]
-    NoConstant {
-        /// The fit.
-        fit: String,
-        /// The constant.
-        constant: String,
-    },
+    /// What a project names could not be had.
+    #[error(transparent)]
+    Project(#[from] ProjectError),
     /// A result lacks a member of its family.
     #[error("fit `{fit}` has no member `{member}`: run `striae fit {fit}`")]
     NoMember {

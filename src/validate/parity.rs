@@ -6,10 +6,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::effect::Candidate;
 use crate::gpu::Kernel;
 use crate::numeric::ulp::ulp_distance_f32;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Shipped, Target, kernel_values, values_f32};
+use crate::validate::accuracy::{Target, kernel_values, values_f32};
 
 /// Upper ends of the histogram's bins, in units in the last place; the last bin is open.
 pub const BINS: [u64; 8] = [0, 1, 2, 4, 16, 256, 65_536, u64::MAX];
@@ -38,14 +39,14 @@ pub struct Parity {
 /// # Errors
 /// If the form cannot be evaluated, or the device fails.
 pub fn parity(
-    shipped: &Shipped,
+    candidate: &Candidate,
     target: &Target,
     kernel: &Kernel<'_>,
 ) -> Result<Parity, ValidateError> {
-    let lanes = values_f32(shipped, target)?;
+    let lanes = values_f32(candidate, target)?;
     let on_device = kernel_values(kernel, target)?;
     let mut found = Parity {
-        name: shipped.name.clone(),
+        name: candidate.name.clone(),
         count: lanes.len(),
         histogram: [0; BINS.len()],
         max_ulp: 0,

@@ -1,28 +1,31 @@
-//! A study of one effect: every fit of it on every region, its laws, its parity and its cost.
-
-use std::path::Path;
-
-use serde::Serialize;
+//! A study of one effect: every candidate of it on every region, its laws, its parity and its cost.
 
 use crate::effect::exhibit::Exhibit;
-use crate::effect::{Effect, Finding, FittedConstants, Member};
-use crate::fit::outcome::{FamilyOutcome, Outcome};
-use crate::form::Form;
+use crate::effect::{Candidate, Candidates, Effect, Finding, FittedConstants, Member, Reference};
+use crate::fit::outcome::Outcome;
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
-use crate::registry;
+use crate::project::{Approximated, Fitted, Project, Subject};
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Accuracy, Shipped, Target, accuracy, residuals_f32};
+use crate::validate::accuracy::{Accuracy, Target, accuracy, residuals_f32};
 use crate::validate::family::{FormOverFamily, GroupSpread, over_family, spreads};
 use crate::validate::laws::{LawVerdict, judge};
 use crate::validate::parity::{Parity, parity};
 use crate::validate::regions::{Atlas, Grounds};
 
-/// A fit to a reference, judged.
-#[derive(Debug, Clone, Serialize)]
-pub struct FitStudy {
-    /// The result of the fit.
-    pub outcome: Outcome,
+/// A candidate for a reference, judged.
+#[derive(Debug, Clone)]
+pub struct CandidateStudy {
+    /// `effect/name`.
+    pub name: String,
+    /// Registered form, or path of a file.
+    pub form: String,
+    /// The reference that it approximates.
+    pub reference: &'static Reference,
+    /// What was judged.
+    pub candidate: Candidate,
+    /// The result, where something was fitted.
+    pub outcome: Option<Outcome>,
     /// Accuracy per region of the effect, by region name.
     pub regions: Vec<(String, Accuracy)>,
     /// Accuracy on the effect's hard cases, by the name of the set.
@@ -31,184 +34,151 @@ pub struct FitStudy {
     pub parity: Measured<Parity>,
 }
 
-/// The fits to one family, judged on held-out points.
-#[derive(Debug, Clone, Serialize)]
+/// The candidates for one family, judged on held-out points.
+#[derive(Debug, Clone)]
 pub struct FamilyStudy {
     /// The family.
     pub family: String,
-    /// One entry per fit.
+    /// One entry per subject.
     pub forms: Vec<FormOverFamily>,
     /// How far the sources are apart.
     pub spreads: Vec<GroupSpread>,
 }
 
 /// Everything measured about an effect, except time.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 pub struct Study {
     /// Name of the effect.
     pub effect: String,
-    /// Fits to references.
-    pub fits: Vec<FitStudy>,
-    /// Fits to families.
+    /// Candidates for references.
+    pub candidates: Vec<CandidateStudy>,
+    /// Candidates for families.
     pub families: Vec<FamilyStudy>,
-    /// Every law against every fit.
+    /// Every law against every candidate.
     pub laws: Vec<LawVerdict>,
     /// Claims of papers, checked.
     pub findings: Vec<Finding>,
-    /// What the effect shows beyond its fits.
+    /// What the effect shows beyond its candidates.
     pub exhibits: Vec<Exhibit>,
 }
 
-impl Shipped {
-    /// The form of a result with its constants. `root` is the project's folder, for forms that are
-    /// files of the user's.
-    ///
-    /// # Errors
-    /// If the form is neither registered nor a readable file, or a constant of it has no value.
-    pub fn of(outcome: &Outcome, root: &Path) -> Result<Self, ValidateError> {
-        let form = match registry::form(&outcome.form) {
-            Some((_, entry)) => entry.load()?,
-            None => {
-                let path = root.join(&outcome.form);
-                let text = std::fs::read_to_string(&path).map_err(|source| {
-                    ValidateError::UnreadableForm { name: outcome.form.clone(), source }
-                })?;
-                Form::parse(&outcome.form, &text, &outcome.function)?
-            }
-        };
-        Self::with_form(outcome, form)
-    }
-
-    /// The same for a form that is loaded already.
-    ///
-    /// # Errors
-    /// If a constant of the form has no value in the result.
-    pub fn with_form(outcome: &Outcome, form: Form) -> Result<Self, ValidateError> {
-        let constants = form
-            .parameters()
-            .iter()
-            .map(|parameter| {
-                outcome.parameters.get(&parameter.name).ok_or_else(|| ValidateError::NoConstant {
-                    fit: outcome.name.clone(),
-                    constant: parameter.name.clone(),
-                })
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        Ok(Self {
-            name: outcome.name.clone(),
-            constants: constants.iter().map(|constant| constant.value).collect(),
-            constants_f32: constants.iter().map(|constant| constant.f32).collect(),
-            form,
-        })
-    }
-}
-
-/// Studies `effect` with the results of its fits.
+/// Studies `effect` with `subjects`, those of it.
 ///
-/// `members` holds the held-out members of each family, in the order of `effect.families`; `root`
-/// is the project's folder.
+/// `members` holds the held-out members of each family, in the order of `effect.families`;
+/// `candidates` are those of the project, for claims and exhibits.
 ///
 /// # Errors
 /// If a form, a reference or the device fails; a missing device is not an error.
 pub fn study(
     effect: &Effect,
-    singles: &[Outcome],
-    families: &[FamilyOutcome],
+    subjects: &[Subject],
     members: &[Vec<Member>],
-    root: &Path,
+    candidates: &Candidates,
+    project: &Project,
+    atlas: &Atlas,
     device: &Measured<Device>,
 ) -> Result<Study, ValidateError> {
     let mut found = Study {
         effect: effect.name.to_owned(),
-        fits: Vec::new(),
+        candidates: Vec::new(),
         families: Vec::new(),
         laws: Vec::new(),
-        findings: (effect.findings)(&constants(singles)),
-        exhibits: (effect.exhibits)(&constants(singles))?,
+        findings: (effect.findings)(&constants(candidates)),
+        exhibits: (effect.exhibits)(&constants(candidates))?,
     };
-    let mut atlas = Atlas::new(effect);
-    for outcome in singles {
-        let shipped = Shipped::of(outcome, root)?;
-        found.laws.extend(judge(effect, &outcome.form, &shipped));
-        if let Some((_, reference)) = registry::reference(&outcome.target) {
-            found.fits.push(fit_study(outcome, &shipped, atlas.of(reference)?, device)?);
+    for subject in subjects {
+        let reference = match &subject.approximates {
+            Approximated::Reference(name) => project.registry().reference(name),
+            Approximated::Family(_) | Approximated::Table => None,
+        };
+        if let Some(candidate) = subject.candidates.first() {
+            let reference = registered_reference(project, subject);
+            found.laws.extend(judge(effect, &subject.form, reference, candidate));
+        }
+        if let (Some((_, reference)), Some(candidate)) = (reference, subject.candidates.first()) {
+            let grounds = atlas.grounds(effect, reference)?;
+            found.candidates.push(one(subject, candidate, reference, &grounds, device)?);
         }
     }
     for (family, members) in effect.families.iter().zip(members) {
-        let mut forms = Vec::new();
-        for outcome in families.iter().filter(|outcome| outcome.family == family.name) {
-            if let Some((_, entry)) = registry::form(&outcome.form) {
-                let form = entry.load()?;
-                let judged = judge_family(&form, outcome, members)?;
-                if let Some(first) = outcome.members.first() {
-                    let shipped = Shipped::with_form(first, form)?;
-                    found.laws.extend(judge(effect, &outcome.form, &shipped));
-                }
-                forms.push(judged);
-            }
-        }
+        let over = Approximated::Family(family.name.to_owned());
+        let forms = subjects
+            .iter()
+            .filter(|subject| subject.approximates == over)
+            .map(|subject| judge_family(subject, members))
+            .collect::<Result<_, _>>()?;
         let spreads = spreads(members);
         found.families.push(FamilyStudy { family: family.name.to_owned(), forms, spreads });
     }
     Ok(found)
 }
 
-fn constants(singles: &[Outcome]) -> FittedConstants {
-    let of = |outcome: &Outcome| {
-        outcome.parameters.iter().map(|(name, constant)| (name.clone(), constant.value)).collect()
+fn constants(candidates: &Candidates) -> FittedConstants {
+    let of = |candidate: &std::sync::Arc<Candidate>| {
+        let names = candidate.form.parameters().iter().map(|parameter| parameter.name.clone());
+        let values = names.zip(candidate.constants_f32.iter().map(|value| f64::from(*value)));
+        (candidate.name.clone(), values.collect())
     };
-    FittedConstants(singles.iter().map(|outcome| (outcome.name.clone(), of(outcome))).collect())
+    FittedConstants(candidates.iter().map(of).collect())
 }
 
-fn fit_study(
-    outcome: &Outcome,
-    shipped: &Shipped,
+/// The reference that the registered form of a subject approximates; empty for a form of the user's.
+fn registered_reference<'p>(project: &'p Project, subject: &Subject) -> &'p str {
+    let entry = project.registry().form(&subject.form);
+    entry.and_then(|entry| entry.reference()).unwrap_or_default()
+}
+
+fn one(
+    subject: &Subject,
+    candidate: &Candidate,
+    reference: &'static Reference,
     grounds: &Grounds,
     device: &Measured<Device>,
-) -> Result<FitStudy, ValidateError> {
+) -> Result<CandidateStudy, ValidateError> {
     let kernel = match device {
         Measured::Value(device) => {
-            Measured::Value(device.compile(&shipped.form, &shipped.constants_f32)?)
+            Measured::Value(device.compile(&candidate.form, &candidate.constants_f32)?)
         }
         Measured::NotMeasured(reason) => Measured::NotMeasured(reason.clone()),
     };
     let judged = |targets: Vec<(&'static str, Target)>| {
         targets
             .iter()
-            .map(|(name, target)| Ok(((*name).to_owned(), accuracy(shipped, target, &kernel)?)))
+            .map(|(name, target)| Ok(((*name).to_owned(), accuracy(candidate, target, &kernel)?)))
             .collect::<Result<Vec<_>, ValidateError>>()
     };
-    let regions = judged(grounds.regions(&shipped.form)?)?;
-    let hard_cases = judged(grounds.hard_cases(&shipped.form)?)?;
-    let parity = match (&kernel, grounds.everywhere(&shipped.form)?) {
+    let regions = judged(grounds.regions(&candidate.form)?)?;
+    let hard_cases = judged(grounds.hard_cases(&candidate.form)?)?;
+    let parity = match (&kernel, grounds.everywhere(&candidate.form)?) {
         (Measured::Value(kernel), Some(target)) => {
-            Measured::Value(parity(shipped, &target, kernel)?)
+            Measured::Value(parity(candidate, &target, kernel)?)
         }
         (Measured::Value(_), None) => {
             Measured::NotMeasured("the effect has no region for it".into())
         }
         (Measured::NotMeasured(reason), _) => Measured::NotMeasured(reason.clone()),
     };
-    Ok(FitStudy { outcome: outcome.clone(), regions, hard_cases, parity })
+    Ok(CandidateStudy {
+        name: subject.name.clone(),
+        form: subject.form.clone(),
+        reference,
+        candidate: candidate.clone(),
+        outcome: subject.outcome().cloned(),
+        regions,
+        hard_cases,
+        parity,
+    })
 }
 
-fn judge_family(
-    form: &Form,
-    outcome: &FamilyOutcome,
-    members: &[Member],
-) -> Result<FormOverFamily, ValidateError> {
-    let mut outcomes = Vec::new();
-    let mut residuals = Vec::new();
+fn judge_family(subject: &Subject, members: &[Member]) -> Result<FormOverFamily, ValidateError> {
+    let mut residuals = Vec::with_capacity(members.len());
     for member in members {
-        let name = format!("{}#{}", outcome.name, member.label);
-        let fitted = outcome.members.iter().find(|fitted| fitted.name == name);
-        let fitted = fitted.ok_or_else(|| ValidateError::NoMember {
-            fit: outcome.name.clone(),
-            member: member.label.clone(),
+        let candidate = subject.of_member(&member.label).ok_or_else(|| {
+            ValidateError::NoMember { fit: subject.name.clone(), member: member.label.clone() }
         })?;
-        let shipped = Shipped::with_form(fitted, form.clone())?;
-        residuals.push(residuals_f32(&shipped, &Target::of_table(&member.table, form)?)?);
-        outcomes.push(fitted);
+        let target = Target::of_table(&member.table, &candidate.form)?;
+        residuals.push(residuals_f32(candidate, &target)?);
     }
-    Ok(over_family(&outcome.name, members, &outcomes, residuals))
+    let outcomes = subject.fitted.as_ref().map(|Fitted { result, .. }| result.outcomes());
+    Ok(over_family(&subject.name, members, outcomes.unwrap_or_default(), residuals))
 }

@@ -4,7 +4,6 @@ use super::{Evidence, bare, count, device_notice, no_device, place};
 use crate::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
 use crate::effect::Yardstick;
 use crate::numeric::measured::Measured;
-use crate::registry;
 use crate::validate::accuracy::Accuracy;
 use crate::validate::laws::LawStanding;
 use crate::validate::parity::BINS;
@@ -19,11 +18,11 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
     for region in evidence.effect.regions {
         let rows: Vec<(&str, &Accuracy)> = evidence
             .study
-            .fits
+            .candidates
             .iter()
             .filter_map(|fit| {
                 let found = fit.regions.iter().find(|(name, _)| name == region.name)?;
-                Some((bare(&fit.outcome.name), &found.1))
+                Some((bare(&fit.name), &found.1))
             })
             .collect();
         if !rows.is_empty() {
@@ -35,11 +34,11 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
     for set in evidence.effect.hard_cases {
         let rows: Vec<(&str, &Accuracy)> = evidence
             .study
-            .fits
+            .candidates
             .iter()
             .filter_map(|fit| {
                 let found = fit.hard_cases.iter().find(|(name, _)| name == set.name)?;
-                Some((bare(&fit.outcome.name), &found.1))
+                Some((bare(&fit.name), &found.1))
             })
             .collect();
         if !rows.is_empty() {
@@ -55,12 +54,9 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
 fn units<'a>(evidence: &Evidence<'_>, names: impl Iterator<Item = &'a str>) -> String {
     let mut units: Vec<&str> = Vec::new();
     for name in names {
-        let fit = evidence.study.fits.iter().find(|fit| bare(&fit.outcome.name) == name);
-        let reference = fit.and_then(|fit| registry::reference(&fit.outcome.target));
-        if let Some((_, reference)) = reference
-            && !units.contains(&reference.unit)
-        {
-            units.push(reference.unit);
+        let fit = evidence.study.candidates.iter().find(|fit| bare(&fit.name) == name);
+        if let Some(fit) = fit.filter(|fit| !units.contains(&fit.reference.unit)) {
+            units.push(fit.reference.unit);
         }
     }
     units.join(" or ")
@@ -176,10 +172,10 @@ pub(super) fn parity_section(evidence: &Evidence<'_>) -> Section {
         columns,
     );
     let mut reasons = Vec::new();
-    for fit in &evidence.study.fits {
+    for fit in &evidence.study.candidates {
         match &fit.parity {
             Measured::Value(parity) => {
-                let mut row = vec![Cell::text(bare(&fit.outcome.name)), count(parity.count)];
+                let mut row = vec![Cell::text(bare(&fit.name)), count(parity.count)];
                 row.extend(parity.histogram.iter().map(|points| count(*points)));
                 row.extend([
                     count(usize::try_from(parity.max_ulp).unwrap_or(usize::MAX)),

@@ -159,7 +159,7 @@ fn errors<'a>(evidence: &Evidence<'a>, baseline: &str) -> (Vec<(&'a str, f64, f6
         .iter()
         .filter(|cost| cost.baseline == baseline)
         .filter_map(|cost| {
-            let single = study.fits.iter().find(|fit| fit.outcome.name == cost.name);
+            let single = study.candidates.iter().find(|fit| fit.name == cost.name);
             let error = match single {
                 Some(fit) if study.families.is_empty() => {
                     let accuracy = &fit.regions.first()?.1;

@@ -4,12 +4,10 @@ use super::{Evidence, bare};
 use crate::document::plot::{Axis, Plot, Series};
 use crate::document::{Figure, Section};
 use crate::effect::Region;
-use crate::registry;
 use crate::table::Table;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::Shipped;
 use crate::validate::curves::{Curve, against_reference};
-use crate::validate::study::FitStudy;
+use crate::validate::study::CandidateStudy;
 
 /// Arguments per curve.
 const POINTS: usize = 2000;
@@ -39,7 +37,7 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Result<Section, ValidateError>
         let mut shown = None;
         for fit in ordered(evidence) {
             let Some(span) = span(fit, &points) else { continue };
-            let curve = curve(evidence, fit, &span)?;
+            let curve = curve(fit, &span)?;
             if !curves.iter().any(|drawn| same(drawn, &curve)) {
                 curves.push(curve);
             }
@@ -53,9 +51,9 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Result<Section, ValidateError>
 }
 
 /// The fits, the baseline first, so that it is drawn and others are compared with it.
-fn ordered<'a>(evidence: &Evidence<'a>) -> Vec<&'a FitStudy> {
-    let mut fits: Vec<&FitStudy> = evidence.study.fits.iter().collect();
-    fits.sort_by_key(|fit| !evidence.effect.baselines.contains(&fit.outcome.name.as_str()));
+fn ordered<'a>(evidence: &Evidence<'a>) -> Vec<&'a CandidateStudy> {
+    let mut fits: Vec<&CandidateStudy> = evidence.study.candidates.iter().collect();
+    fits.sort_by_key(|fit| !evidence.effect.baselines.contains(&fit.name.as_str()));
     fits
 }
 
@@ -109,23 +107,18 @@ fn sentence(region: &Region) -> &'static str {
     region.description.trim_end_matches('.')
 }
 
-fn curve(evidence: &Evidence<'_>, fit: &FitStudy, span: &Span) -> Result<Curve, ValidateError> {
-    let shipped = Shipped::of(&fit.outcome, evidence.root)?;
+fn curve(fit: &CandidateStudy, span: &Span) -> Result<Curve, ValidateError> {
     let at = |t: f64| match span.wide {
         true => span.low * (span.high / span.low).powf(t),
         false => span.low + (span.high - span.low) * t,
     };
     let arguments: Vec<f64> = (0..POINTS).map(|i| at((i as f64 + 0.5) / POINTS as f64)).collect();
-    match registry::reference(&fit.outcome.target) {
-        Some((_, reference)) => against_reference(&shipped, reference, &arguments),
-        None => Ok(Curve { name: fit.outcome.name.clone(), points: Vec::new() }),
-    }
+    against_reference(&fit.candidate, fit.reference, &arguments)
 }
 
 /// The span of the region's points along the one argument of the fit's reference.
-fn span(fit: &FitStudy, points: &Table) -> Option<Span> {
-    let (_, reference) = registry::reference(&fit.outcome.target)?;
-    let [argument] = reference.arguments else { return None };
+fn span(fit: &CandidateStudy, points: &Table) -> Option<Span> {
+    let [argument] = fit.reference.arguments else { return None };
     let values = &points.column(argument.name)?.values;
     let bounds = |of: &dyn Fn(f64) -> f64| {
         values

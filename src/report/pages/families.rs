@@ -4,9 +4,8 @@ use super::{Evidence, bare, count, place};
 use crate::document::plot::{Axis, Plot, Series};
 use crate::document::{Block, Cell, Column, Figure, Section, Table};
 use crate::effect::{Family, Member};
-use crate::registry;
+use crate::project::Approximated;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::Shipped;
 use crate::validate::curves::over_member;
 use crate::validate::family::{Choice, choices, group_rms};
 use crate::validate::study::FamilyStudy;
@@ -20,7 +19,8 @@ pub(super) fn section(
     evidence: &Evidence<'_>,
     family: &FamilyStudy,
 ) -> Result<Section, ValidateError> {
-    let description = registry::family(&family.family).map_or("", |(_, family)| family.description);
+    let description =
+        position(evidence, &family.family).map_or("", |(_, family)| family.description);
     let cost: Vec<f64> = family.forms.iter().map(|form| cost(evidence, &form.fit)).collect();
     let choices = choices(&family.forms, &family.spreads, &cost);
     let mut section = Section::new(format!("Family: {}", family.family.replace('_', " ")))
@@ -210,12 +210,11 @@ fn figure(
             Axis::linear("cosine of incidence", "1"),
             Axis::symlog("error", "1", LINEAR_BELOW),
         );
-        for outcome in evidence.families.iter().filter(|outcome| outcome.family == registered.name)
-        {
-            let name = format!("{}#{}", outcome.name, member.label);
-            if let Some(fitted) = outcome.members.iter().find(|fitted| fitted.name == name) {
-                let curve = over_member(&Shipped::of(fitted, evidence.root)?, member)?;
-                plot = plot.series(Series::line(bare(&outcome.name), curve.points));
+        let over = Approximated::Family(registered.name.to_owned());
+        for subject in evidence.subjects.iter().filter(|subject| subject.approximates == over) {
+            if let Some(candidate) = subject.of_member(&member.label) {
+                let curve = over_member(candidate, member)?;
+                plot = plot.series(Series::line(bare(&subject.name), curve.points));
             }
         }
         plots.push(plot);

@@ -1,6 +1,6 @@
 //! What was fitted to what, and the constants.
 
-use super::{Evidence, bare, count};
+use super::{Evidence, bare, count, families};
 use crate::document::{Block, Cell, Column, Section, Table, Verdict};
 use crate::effect::Effect;
 use crate::fit::outcome::{Outcome, Status};
@@ -55,7 +55,7 @@ pub(super) fn exact_section(effect: &Effect) -> Section {
 
 pub(super) fn fitted_section(evidence: &Evidence<'_>) -> Section {
     let mut section = Section::new("What was fitted to what");
-    if !evidence.study.fits.is_empty() {
+    if !evidence.study.candidates.is_empty() {
         let mut fits = Table::new(
             "Fits to references. RMS and max over the fitted points, of the constants as shipped, in f32.",
             vec![
@@ -71,7 +71,7 @@ pub(super) fn fitted_section(evidence: &Evidence<'_>) -> Section {
                 Column::number("alternations", "1"),
             ],
         );
-        for outcome in evidence.study.fits.iter().map(|fit| &fit.outcome) {
+        for outcome in evidence.study.candidates.iter().filter_map(|fit| fit.outcome.as_ref()) {
             fits.push(vec![
                 Cell::text(bare(&outcome.name)),
                 Cell::text(bare(&outcome.form)),
@@ -96,7 +96,7 @@ pub(super) fn fitted_section(evidence: &Evidence<'_>) -> Section {
                 blocks: vec![Block::Table(constants(evidence))],
             });
     }
-    for family in evidence.families {
+    for family in families(evidence) {
         section = section.block(Block::Details {
             summary: format!(
                 "Constants of `{}` for every member of `{}`",
@@ -131,7 +131,7 @@ fn constants(evidence: &Evidence<'_>) -> Table {
             Column::number("standard error", "1"),
         ],
     );
-    for outcome in evidence.study.fits.iter().map(|fit| &fit.outcome) {
+    for outcome in evidence.study.candidates.iter().filter_map(|fit| fit.outcome.as_ref()) {
         for (name, constant) in &outcome.parameters {
             table.push(vec![
                 Cell::text(bare(&outcome.name)),

@@ -10,7 +10,7 @@ pub fn index_page(effects: &[Evidence<'_>], gates: &[GateLine]) -> Page {
         "Effects.",
         vec![
             Column::text("effect"),
-            Column::number("forms", "1"),
+            Column::number("candidates", "1"),
             Column::number("fits", "1"),
             Column::number("gates passed", "1"),
             Column::number("gates", "1"),
@@ -18,8 +18,11 @@ pub fn index_page(effects: &[Evidence<'_>], gates: &[GateLine]) -> Page {
         ],
     );
     for evidence in effects {
-        let fits: usize = evidence.study.fits.len()
-            + evidence.families.iter().map(|family| family.members.len()).sum::<usize>();
+        let fits: usize = evidence
+            .subjects
+            .iter()
+            .filter_map(|subject| Some(subject.fitted.as_ref()?.result.outcomes().len()))
+            .sum();
         let passed = evidence
             .gates
             .iter()
@@ -27,7 +30,7 @@ pub fn index_page(effects: &[Evidence<'_>], gates: &[GateLine]) -> Page {
             .count();
         overview.push(vec![
             Cell::link(evidence.effect.title, format!("{}.html", evidence.effect.name)),
-            count(evidence.effect.forms.len()),
+            count(evidence.subjects.len()),
             count(fits),
             count(passed),
             count(evidence.gates.len()),
@@ -90,12 +93,12 @@ fn best_section(effects: &[Evidence<'_>]) -> Section {
         ],
     );
     for evidence in effects {
-        for fit in &evidence.study.fits {
+        for fit in &evidence.study.candidates {
             let Some((_, accuracy)) = fit.regions.first() else { continue };
-            let cost = evidence.costs.forms.iter().find(|cost| cost.name == fit.outcome.name);
+            let cost = evidence.costs.forms.iter().find(|cost| cost.name == fit.name);
             table.push(vec![
                 Cell::text(evidence.effect.title),
-                Cell::text(bare(&fit.outcome.name)),
+                Cell::text(bare(&fit.name)),
                 Cell::text(accuracy.yardstick.words()),
                 Cell::number(accuracy.headline(), 3),
                 Cell::number_or(cost.map(|cost| cost.nanoseconds()), 3, "not timed"),

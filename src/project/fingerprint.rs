@@ -3,25 +3,27 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::Context as _;
-use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use super::project::Project;
-use super::specs::{SpecFile, entries};
+use super::specs::entries;
+use super::{Project, ProjectError, SpecFile};
 use crate::fit::Spec;
 
 /// SHA-256 of what every stage depends on: this program and the measured data.
 #[derive(Debug)]
-pub(super) struct Fingerprints {
+pub struct Fingerprints {
     base: Vec<u8>,
 }
 
 impl Fingerprints {
     /// Reads this program and the data of `project`.
-    pub(super) fn new(project: &Project) -> anyhow::Result<Self> {
+    ///
+    /// # Errors
+    /// [`ProjectError::Io`] if either cannot be read.
+    pub fn new(project: &Project) -> Result<Self, ProjectError> {
         let mut hash = Sha256::new();
-        let program = std::env::current_exe().context("this program's own path")?;
+        let program =
+            std::env::current_exe().map_err(ProjectError::io(Path::new("this program")))?;
         add_file(&mut hash, &program)?;
         if project.data().is_dir() {
             add_folder(&mut hash, &project.data())?;
@@ -31,7 +33,7 @@ impl Fingerprints {
 
     /// Of a spec, its data, its result and the results that it takes constants from; a result that
     /// is not there is part of it.
-    pub(super) fn of_fit(&self, file: &SpecFile, spec: &Spec, project: &Project) -> String {
+    pub fn of_fit(&self, file: &SpecFile, spec: &Spec, project: &Project) -> String {
         let mut hash = Sha256::new();
         hash.update(&self.base);
         let sources = spec.constants.iter().map(|name| project.fits().join(format!("{name}.json")));
@@ -45,12 +47,15 @@ impl Fingerprints {
     }
 
     /// Of the fits, the gates, the adapter and the report as it stands.
-    pub(super) fn of_report(
+    ///
+    /// # Errors
+    /// [`ProjectError::Io`] if any of it cannot be read.
+    pub fn of_report(
         &self,
         adapter: &str,
         fits: &BTreeMap<String, String>,
         project: &Project,
-    ) -> anyhow::Result<String> {
+    ) -> Result<String, ProjectError> {
         let mut hash = Sha256::new();
         hash.update(&self.base);
         add(&mut hash, adapter.as_bytes());
@@ -58,7 +63,9 @@ impl Fingerprints {
             add(&mut hash, name.as_bytes());
             add(&mut hash, fit.as_bytes());
         }
-        add_file(&mut hash, &project.gates())?;
+        if project.gates().is_file() {
+            add_file(&mut hash, &project.gates())?;
+        }
         if project.scene_folder().is_dir() {
             add_folder(&mut hash, &project.scene_folder())?;
         }
@@ -69,13 +76,8 @@ impl Fingerprints {
     }
 }
 
-/// `value` as JSON.
-pub(super) fn json<T: Serialize>(value: &T) -> anyhow::Result<String> {
-    Ok(format!("{}\n", serde_json::to_string_pretty(value)?))
-}
-
 /// Every file below `folder` by name, hidden ones left out.
-fn add_folder(hash: &mut Sha256, folder: &Path) -> anyhow::Result<()> {
+fn add_folder(hash: &mut Sha256, folder: &Path) -> Result<(), ProjectError> {
     for path in entries(folder)? {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if name.starts_with('.') {
@@ -91,8 +93,8 @@ fn add_folder(hash: &mut Sha256, folder: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn add_file(hash: &mut Sha256, path: &Path) -> anyhow::Result<()> {
-    let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
+fn add_file(hash: &mut Sha256, path: &Path) -> Result<(), ProjectError> {
+    let bytes = std::fs::read(path).map_err(ProjectError::io(path))?;
     add(hash, &bytes);
     Ok(())
 }

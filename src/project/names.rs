@@ -1,0 +1,240 @@
+//! What a name stands for: the one way to a candidate.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{Project, ProjectError};
+use crate::effect::{Candidate, Candidates, ConstantsOf, FormEntry, Reference};
+use crate::fit::FitResult;
+use crate::fit::outcome::Outcome;
+use crate::form::Form;
+
+/// What a name stands for.
+#[derive(Debug)]
+pub enum Named {
+    /// An exact quantity.
+    Reference(&'static Reference),
+    /// A form with its constants.
+    Candidate(Box<Candidate>),
+}
+
+impl Project {
+    /// What `name` stands for: a reference, or a candidate by any of its names ([`Self::candidate`]).
+    ///
+    /// # Errors
+    /// As [`Self::candidate`].
+    pub fn named(&self, name: &str) -> Result<Named, ProjectError> {
+        match self.registry().reference(name) {
+            Some((_, reference)) => Ok(Named::Reference(reference)),
+            None => Ok(Named::Candidate(Box::new(self.candidate(name)?))),
+        }
+    }
+
+    /// The candidate called `name`:
+    ///
+    /// | name | form and constants |
+    /// |---|---|
+    /// | `FILE.wgsl#function` | a file, constants of its text |
+    /// | `form:effect/form` | a registered form, constants of its text |
+    /// | `FILE.json`, `FILE.json#member` | a result file |
+    /// | `effect/name`, `effect/name#member` | the result in `fits/`; without one the registered form, with constants of the fits that it names, else of its text |
+    ///
+    /// # Errors
+    /// [`ProjectError::Unknown`] with the nearest names; and whatever keeps a file from being read, a
+    /// form from being loaded, or a constant from having a value.
+    pub fn candidate(&self, name: &str) -> Result<Candidate, ProjectError> {
+        self.candidate_with(name, &BTreeMap::new())
+    }
+
+    /// As [`Self::candidate`], with `set` in place of these constants.
+    ///
+    /// # Errors
+    /// As [`Self::candidate`]; [`ProjectError::Name`] for a constant that the form has not.
+    pub fn candidate_with(
+        &self,
+        name: &str,
+        set: &BTreeMap<String, f64>,
+    ) -> Result<Candidate, ProjectError> {
+        let (form, mut values, constants_of) = self.parts(name)?;
+        let known = form.parameters().iter().map(|parameter| parameter.name.as_str());
+        if let Some(stray) = set.keys().find(|stray| !known.clone().any(|known| known == *stray)) {
+            let known: Vec<&str> = known.collect();
+            let what = format!("no constant `{stray}`; there are: {}", known.join(", "));
+            return Err(ProjectError::Name { name: form.origin().to_owned(), what });
+        }
+        values.extend(set.iter().map(|(name, value)| (name.clone(), (*value, *value as f32))));
+        Ok(Candidate::new(name.trim_start_matches("form:"), form, &values, constants_of)?)
+    }
+
+    /// Form, known constants and where they come from.
+    fn parts(&self, name: &str) -> Result<(Form, Constants, ConstantsOf), ProjectError> {
+        if let Some((file, function)) = split_wgsl(name) {
+            let form = self.form_of_file(Path::new(file), function)?;
+            return Ok((form, Constants::new(), ConstantsOf::Text));
+        }
+        if let Some(form) = name.strip_prefix("form:") {
+            let entry = self.registry().form(form).ok_or_else(|| self.unknown(form))?;
+            return Ok((entry.load()?, Constants::new(), ConstantsOf::Text));
+        }
+        if let Some(outcome) = self.outcome(name)? {
+            let form = self.form_of(&outcome)?;
+            return Ok((form, constants(&outcome), ConstantsOf::Fit(outcome.name)));
+        }
+        let entry = self.registry().form(name).ok_or_else(|| self.unknown(name))?;
+        let (values, constants_of) = self.inherited(entry)?;
+        Ok((entry.load()?, values, constants_of))
+    }
+
+    /// The result behind a candidate, where it was fitted.
+    ///
+    /// # Errors
+    /// If the result cannot be read.
+    pub fn outcome_of(&self, candidate: &Candidate) -> Result<Option<Outcome>, ProjectError> {
+        match &candidate.constants_of {
+            ConstantsOf::Fit(fit) => self.outcome(fit),
+            ConstantsOf::Text | ConstantsOf::Fits(_) => Ok(None),
+        }
+    }
+
+    /// A registered form without a fit of its own: constants of the fits that it names, else of its
+    /// text.
+    ///
+    /// # Errors
+    /// If one of these fits has no result, the form does not load, or a constant has no value.
+    pub fn unfitted(&self, entry: &FormEntry) -> Result<Candidate, ProjectError> {
+        let (values, constants_of) = self.inherited(entry)?;
+        Ok(Candidate::new(&entry.name, entry.load()?, &values, constants_of)?)
+    }
+
+    fn inherited(&self, entry: &FormEntry) -> Result<(Constants, ConstantsOf), ProjectError> {
+        let mut values = Constants::new();
+        for fit in entry.constants_of() {
+            let found = self.outcome(fit)?;
+            let found = found.ok_or_else(|| ProjectError::NoResult { fit: fit.clone() })?;
+            for (parameter, constant) in found.parameters {
+                // What ships: the form is made of the rounded constants.
+                values.insert(parameter, (f64::from(constant.f32), constant.f32));
+            }
+        }
+        Ok(match entry.constants_of() {
+            [] => (values, ConstantsOf::Text),
+            fits => (values, ConstantsOf::Fits(fits.to_vec())),
+        })
+    }
+
+    /// The form and the constants of a result.
+    ///
+    /// # Errors
+    /// If the form is neither registered nor a readable file, or a constant of it has no value.
+    pub fn fitted(&self, outcome: &Outcome) -> Result<Candidate, ProjectError> {
+        self.with_form(outcome, self.form_of(outcome)?)
+    }
+
+    fn form_of(&self, outcome: &Outcome) -> Result<Form, ProjectError> {
+        match self.registry().form(&outcome.form) {
+            Some(entry) => Ok(entry.load()?),
+            None => self.form_of_file(Path::new(&outcome.form), &outcome.function),
+        }
+    }
+
+    /// As [`Self::fitted`], of a form that is loaded already.
+    pub(super) fn with_form(
+        &self,
+        outcome: &Outcome,
+        form: Form,
+    ) -> Result<Candidate, ProjectError> {
+        let constants_of = ConstantsOf::Fit(outcome.name.clone());
+        Ok(Candidate::new(&outcome.name, form, &constants(outcome), constants_of)?)
+    }
+
+    /// Every candidate that is judged, by name.
+    ///
+    /// # Errors
+    /// As [`Self::subjects`].
+    pub fn candidates(&self) -> Result<Candidates, ProjectError> {
+        let subjects = self.subjects()?;
+        Ok(subjects.into_iter().flat_map(|subject| subject.candidates).map(Arc::new).collect())
+    }
+
+    fn form_of_file(&self, path: &Path, function: &str) -> Result<Form, ProjectError> {
+        let origin = path.display().to_string();
+        let text =
+            std::fs::read_to_string(self.root().join(path)).map_err(ProjectError::io(path))?;
+        Ok(Form::parse(&origin, &text, function)?)
+    }
+
+    /// The result called `name` in `fits/`, or in the file that `name` is; `#member` names one of a
+    /// family.
+    fn outcome(&self, name: &str) -> Result<Option<Outcome>, ProjectError> {
+        let (fit, member) = name.split_once('#').map_or((name, None), |(f, m)| (f, Some(m)));
+        let path = match fit.ends_with(".json") {
+            true => Path::new(fit).to_path_buf(),
+            false => self.fits().join(format!("{fit}.json")),
+        };
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let fault = |what: String| ProjectError::Name { name: self.shown(&path), what };
+        let family = match (FitResult::read(&path)?, member) {
+            (FitResult::Single(outcome), None) => return Ok(Some(*outcome)),
+            (FitResult::Single(_), Some(label)) => {
+                return Err(fault(format!("a single fit, without a member `{label}`")));
+            }
+            (FitResult::Family(family), _) => family,
+        };
+        let known = || family.members.iter().map(Outcome::label).collect::<Vec<_>>().join(", ");
+        let Some(member) = member else {
+            let what = format!("a family; name a member, as in '{fit}#LABEL'; labels: {}", known());
+            return Err(fault(what));
+        };
+        match family.members.iter().find(|outcome| outcome.label() == member) {
+            Some(outcome) => Ok(Some(outcome.clone())),
+            None => Err(fault(format!("no member `{member}`; there are: {}", known()))),
+        }
+    }
+
+    /// That nothing is called `name`, with the nearest names.
+    pub fn unknown(&self, name: &str) -> ProjectError {
+        let mut known: Vec<String> =
+            self.registry().references().map(|r| r.name.to_owned()).collect();
+        known.extend(self.registry().forms().map(|form| form.name.to_owned()));
+        known.extend(self.specs().unwrap_or_default().into_iter().map(|spec| spec.name));
+        ProjectError::Unknown { name: name.to_owned(), nearest: nearest(name, known) }
+    }
+}
+
+/// Constants in f64 and f32, by name.
+type Constants = BTreeMap<String, (f64, f32)>;
+
+fn constants(outcome: &Outcome) -> Constants {
+    let constants = outcome.parameters.iter();
+    constants.map(|(name, found)| (name.clone(), (found.value, found.f32))).collect()
+}
+
+/// `FILE.wgsl` and `function` of `FILE.wgsl#function`.
+fn split_wgsl(name: &str) -> Option<(&str, &str)> {
+    name.split_once('#').filter(|(file, _)| file.ends_with(".wgsl"))
+}
+
+/// The three of `known` that are nearest to `name` by Levenshtein's distance.
+pub fn nearest(name: &str, known: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut ranked: Vec<(usize, String)> =
+        known.into_iter().map(|other| (strsim::levenshtein(name, &other), other)).collect();
+    ranked.sort();
+    ranked.dedup();
+    ranked.into_iter().take(3).map(|(_, other)| other).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_names_come_first() {
+        let known = ["footprint/eq16", "footprint/eq18", "fresnel/schlick", "sine_integral"];
+        let found = nearest("footprint/eq61", known.map(str::to_owned));
+        assert_eq!(found[0], "footprint/eq16");
+        assert_eq!(found.len(), 3);
+    }
+}

@@ -1,0 +1,162 @@
+//! A run: what a project is measured with, each expensive thing once, whoever asks.
+
+mod checking;
+mod fitting;
+mod reporting;
+
+use rayon::prelude::*;
+
+pub use fitting::{Job, fit};
+
+use crate::effect::{Candidates, Effect, Member};
+use crate::fit;
+use crate::gpu::{self, Device};
+use crate::numeric::measured::Measured;
+use crate::project::{Project, Subject};
+use crate::validate::ValidateError;
+use crate::validate::cost::{Costs, costs};
+use crate::validate::regions::Atlas;
+use crate::validate::study::{Study, study};
+use crate::validate::timed::{timed, timed_references};
+
+/// A project, the device, and what was made of them so far.
+#[derive(Debug)]
+pub struct Run {
+    /// The project.
+    pub project: Project,
+    /// The device, or why there is none.
+    pub device: Measured<Device>,
+    /// Points of regions with the values of references.
+    pub atlas: Atlas,
+    /// What fits share.
+    pub fits: fit::Context,
+}
+
+/// An effect, measured.
+#[derive(Debug)]
+pub struct Studied {
+    /// The effect.
+    pub effect: &'static Effect,
+    /// What was judged.
+    pub subjects: Vec<Subject>,
+    /// Accuracy, laws, parity, claims and exhibits.
+    pub study: Study,
+    /// Costs.
+    pub costs: Costs,
+    /// Held-out members of each family.
+    pub members: Vec<Vec<Member>>,
+}
+
+/// Why a run ended.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// Something of the project could not be had.
+    #[error(transparent)]
+    Project(#[from] crate::project::ProjectError),
+    /// A fit could not be run.
+    #[error(transparent)]
+    Fit(#[from] fit::FitError),
+    /// A fit takes constants from one that failed.
+    #[error("{fit}: its source {source_fit} failed")]
+    Source {
+        /// The fit.
+        fit: String,
+        /// The fit that failed.
+        source_fit: String,
+    },
+    /// A candidate could not be judged.
+    #[error(transparent)]
+    Validate(#[from] ValidateError),
+    /// Gates could not be judged.
+    #[error(transparent)]
+    Gate(#[from] crate::gate::GateError),
+    /// A scene could not be rendered.
+    #[error("{scene}: {source}")]
+    Scene {
+        /// Its file.
+        scene: String,
+        /// Why.
+        source: crate::render::RenderError,
+    },
+    /// A family of tables could not be made.
+    #[error("{family}: {source}")]
+    Family {
+        /// The family.
+        family: &'static str,
+        /// Why.
+        source: crate::effect::FamilyError,
+    },
+    /// The report could not be written.
+    #[error(transparent)]
+    Site(#[from] crate::report::html::SiteError),
+    /// A picture of the report could not be made.
+    #[error(transparent)]
+    Render(#[from] crate::render::RenderError),
+}
+
+/// The device, or why there is none.
+///
+/// # Errors
+/// [`gpu::NoDevice`] if one is required (`STRIAE_REQUIRE_GPU=1`).
+pub fn device() -> Result<Measured<Device>, gpu::NoDevice> {
+    match Device::open() {
+        Ok(device) => Ok(Measured::Value(device)),
+        Err(error) if gpu::required() => Err(error),
+        Err(error) => Ok(Measured::NotMeasured(error.to_string())),
+    }
+}
+
+impl Run {
+    /// A run of `project` in which nothing has been made.
+    pub fn new(project: &Project, device: Measured<Device>) -> Self {
+        Self {
+            project: project.clone(),
+            device,
+            atlas: Atlas::default(),
+            fits: fit::Context::new(project.root(), project.registry()),
+        }
+    }
+
+    /// Measures every effect of `effects` that is judged.
+    ///
+    /// # Errors
+    /// If a result, a form, a reference or the device fails; a missing device is not an error.
+    pub fn studies(
+        &self,
+        effects: &[&'static Effect],
+        watch: &(dyn Fn(&str) + Sync),
+    ) -> Result<Vec<Studied>, RunError> {
+        let subjects = self.project.subjects()?;
+        let all = subjects.iter().flat_map(|subject| &subject.candidates).cloned();
+        let candidates: Candidates = all.map(std::sync::Arc::new).collect();
+        effects
+            .iter()
+            .map(|effect| {
+                watch(effect.name);
+                let own = subjects.iter().filter(|subject| subject.is_of(effect.name)).cloned();
+                self.measure(effect, own.collect(), &candidates)
+            })
+            .collect()
+    }
+
+    fn measure(
+        &self,
+        effect: &'static Effect,
+        subjects: Vec<Subject>,
+        candidates: &Candidates,
+    ) -> Result<Studied, RunError> {
+        let members = effect
+            .families
+            .par_iter()
+            .map(|family| {
+                (family.members)(&self.project.data(), true)
+                    .map_err(|source| RunError::Family { family: family.name, source })
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let Self { project, atlas, device, .. } = self;
+        let study = study(effect, &subjects, &members, candidates, project, atlas, device)?;
+        let groups = timed(effect, &subjects, &members, project, atlas)?;
+        let costs = costs(effect.name, &groups, &timed_references(effect, atlas)?, device)?;
+        Ok(Studied { effect, subjects, study, costs, members })
+    }
+}

@@ -1,0 +1,126 @@
+//! The report of a run.
+
+use std::path::Path;
+
+use super::{Run, RunError, Studied};
+use crate::document::{Page, Provenance, Verdict};
+use crate::gate::{Check, Judgement, SCENES, Verdict as Standing};
+use crate::render::surface::render_surface;
+use crate::render::{AnyScene, Backend, Resources, render_scene};
+use crate::report::html::{Written, write_site};
+use crate::report::pages::{
+    Evidence, GateLine, SceneEvidence, SurfaceEvidence, effect_page, index_page, scenes_page,
+    surfaces_page,
+};
+
+impl Run {
+    /// Measures every effect, renders every scene and writes the report with the verdicts of `check`
+    /// into `folder`. `watch` is told what is measured.
+    ///
+    /// # Errors
+    /// If anything of the project cannot be measured, rendered or written.
+    pub fn report(
+        &self,
+        folder: &Path,
+        check: &Check,
+        watch: &(dyn Fn(&str) + Sync),
+    ) -> Result<Written, RunError> {
+        let studied = self.studies(self.project.registry().effects(), watch)?;
+        let (scenes, surfaces) = self.scenes(watch)?;
+        watch("the report");
+        let lines: Vec<GateLine> = check.gates.iter().map(line).collect();
+        let of: Vec<Vec<GateLine>> =
+            studied.iter().map(|studied| gates_of(studied, &lines)).collect();
+        let evidence: Vec<Evidence<'_>> = studied
+            .iter()
+            .zip(&of)
+            .map(|(studied, gates)| Evidence {
+                effect: studied.effect,
+                study: &studied.study,
+                costs: &studied.costs,
+                subjects: &studied.subjects,
+                members: &studied.members,
+                gates,
+            })
+            .collect();
+        let mut pages = vec![index_page(&evidence, &lines)];
+        pages.extend(evidence.iter().map(effect_page).collect::<Result<Vec<Page>, _>>()?);
+        let of_scenes = |names: Vec<&str>| -> Vec<GateLine> {
+            let named = |line: &&GateLine| {
+                let rest = line.subject.strip_prefix(SCENES).unwrap_or_default();
+                names.contains(&rest.split('#').next().unwrap_or_default())
+            };
+            lines.iter().filter(named).cloned().collect()
+        };
+        if !scenes.is_empty() {
+            let names = scenes.iter().map(|of| of.scene.name.as_str()).collect();
+            pages.push(scenes_page(&scenes, &of_scenes(names))?);
+        }
+        if !surfaces.is_empty() {
+            let names = surfaces.iter().map(|of| of.scene.name.as_str()).collect();
+            pages.push(surfaces_page(&surfaces, &of_scenes(names))?);
+        }
+        let provenance = Provenance {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            adapter: self.device.value().map(|device| device.description().to_string()),
+            command: "striae report".to_owned(),
+            facts: Vec::new(),
+        };
+        Ok(write_site(folder, &pages, &provenance)?)
+    }
+
+    fn scenes(
+        &self,
+        watch: &(dyn Fn(&str) + Sync),
+    ) -> Result<(Vec<SceneEvidence>, Vec<SurfaceEvidence>), RunError> {
+        let (fits, data) = (self.project.fits(), self.project.data());
+        let backend = self.device.value().map_or(Backend::Lanes, Backend::Device);
+        let (mut lobes, mut surfaces) = (Vec::new(), Vec::new());
+        for path in self.project.scenes()? {
+            let shown = path.display().to_string();
+            watch(&shown);
+            let resources = Resources { fits: &fits, data: &data };
+            let failed = |source| RunError::Scene { scene: shown.clone(), source };
+            match AnyScene::read(&path)? {
+                AnyScene::Lobe(scene) => {
+                    let rendered = render_scene(&scene, resources, backend, &mut |_| ());
+                    lobes
+                        .push(SceneEvidence { scene: *scene, rendered: rendered.map_err(failed)? });
+                }
+                AnyScene::Surface(scene) => {
+                    let rendered =
+                        render_surface(&scene, resources, backend, &mut |_| ()).map_err(failed)?;
+                    surfaces.push(SurfaceEvidence { scene: *scene, rendered });
+                }
+            }
+        }
+        Ok((lobes, surfaces))
+    }
+}
+
+/// The lines of an effect's own gates.
+fn gates_of(studied: &Studied, lines: &[GateLine]) -> Vec<GateLine> {
+    let prefix = format!("{}/", studied.effect.name);
+    lines.iter().filter(|line| line.subject.starts_with(&prefix)).cloned().collect()
+}
+
+fn line(judgement: &Judgement) -> GateLine {
+    let gate = &judgement.gate;
+    let domain = gate.domain.as_ref().map(|domain| format!(" over {domain}")).unwrap_or_default();
+    GateLine {
+        subject: gate.subject.clone(),
+        metric: format!("{} {}{domain}", gate.metric, gate.precision),
+        measured: match (&judgement.measured, &judgement.reason) {
+            (Some(measured), _) => Ok(measured.value),
+            (None, reason) => Err(reason.clone().unwrap_or_default()),
+        },
+        limit: gate.limit,
+        verdict: match judgement.verdict {
+            Standing::Pass => Verdict::Pass,
+            Standing::Warn => Verdict::Warn,
+            Standing::NotMeasured => Verdict::NotMeasured,
+            Standing::Fail => Verdict::Fail,
+        },
+        why: gate.why.clone(),
+    }
+}
