@@ -3,27 +3,22 @@
 //! The positive side suffices, since the forms are odd to the bit (a law of the effect). About a
 //! minute on two cores.
 
-use std::path::Path;
-
 use rayon::prelude::*;
+use striae::effect::Candidate;
 use striae::effects::sine_integral::sine_integral;
-use striae::fit::FitResult;
-use striae::validate::accuracy::Shipped;
+use striae::project::Project;
+use striae::registry::Registry;
 
 /// Arguments per piece of work.
 const PIECE: u32 = 1 << 16;
 
 fn main() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let project = Project::at(env!("CARGO_MANIFEST_DIR"), Registry::builtin());
     let names = ["auxiliary_large", "auxiliary_lean"];
-    let forms: Vec<Shipped> = names
-        .iter()
-        .map(|name| {
-            let path = root.join("fits/sine_integral").join(format!("{name}.json"));
-            let result = FitResult::read(&path).expect("a committed result");
-            Shipped::of(&result.outcomes()[0], root).expect("a form")
-        })
-        .collect();
+    let candidate = |name: &&str| {
+        project.candidate(&format!("sine_integral/{name}")).expect("a committed result")
+    };
+    let forms: Vec<Candidate> = names.iter().map(candidate).collect();
     let (first, last) = (0, 1e4_f32.to_bits());
     let starts: Vec<u32> = (first..=last).step_by(PIECE as usize).collect();
     let worst = starts
@@ -43,9 +38,9 @@ fn main() {
     }
 }
 
-fn worst(form: &Shipped, x: &[f32], truth: &[f64]) -> (f64, f32) {
-    let values = form.form.eval_f32(&form.constants_f32, &[x]).expect("a value everywhere");
-    values[0].iter().zip(truth).zip(x).fold((0.0, 0.0), |worst, ((value, truth), x)| {
+fn worst(form: &Candidate, x: &[f32], truth: &[f64]) -> (f64, f32) {
+    let values = form.values_f32(&[x]).expect("a value everywhere");
+    values.iter().zip(truth).zip(x).fold((0.0, 0.0), |worst, ((value, truth), x)| {
         let error = (f64::from(*value) - truth).abs();
         if error > worst.0 || error.is_nan() { (error, *x) } else { worst }
     })

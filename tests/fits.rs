@@ -1,7 +1,5 @@
 //! Fits with a known answer, and fits that must say what is wrong with them.
 
-use std::path::PathBuf;
-
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use striae::fit::loss::Loss;
