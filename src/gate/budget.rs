@@ -23,6 +23,8 @@ pub struct Gate {
     pub domain: Option<Domain>,
     /// Largest value accepted: finite, > 0, in the metric's unit.
     pub limit: f64,
+    /// The number measured when the limit was set, where it is recorded.
+    pub measured: Option<f64>,
     /// Value from which on the gate warns; at most `limit`.
     pub warn: Option<f64>,
     /// File whose constants are compared with the fitted ones, relative to the project; for the

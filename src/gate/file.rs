@@ -67,6 +67,7 @@ struct RawGate {
     precision: Option<Spanned<String>>,
     domain: Option<Spanned<String>>,
     limit: Spanned<f64>,
+    measured: Option<Spanned<f64>>,
     warn: Option<Spanned<f64>>,
     shipped: Option<Spanned<PathBuf>>,
     why: Spanned<String>,
@@ -137,6 +138,13 @@ impl Reading<'_> {
             let message = format!("expected a finite number > 0, got {limit}");
             return Err(self.wrong("limit", &raw.limit, message));
         }
+        if let Some(measured) = &raw.measured {
+            let value = *measured.get_ref();
+            if !value.is_finite() || value < 0.0 || value > limit {
+                let message = format!("expected a number from 0 to the limit {limit}, got {value}");
+                return Err(self.wrong("measured", measured, message));
+            }
+        }
         if let Some(warn) = &raw.warn {
             let value = *warn.get_ref();
             if !value.is_finite() || value < 0.0 || value > limit {
@@ -187,6 +195,7 @@ impl Reading<'_> {
             precision,
             domain,
             limit,
+            measured: raw.measured.map(Spanned::into_inner),
             warn: raw.warn.map(Spanned::into_inner),
             shipped: raw.shipped.map(Spanned::into_inner),
             why,
@@ -272,6 +281,7 @@ mod tests {
             ("limit = 0.05105", "limt = 1.0", "gate 2, key limt"),
             ("limit = 0.05105\n", "", "gate 2"),
             ("warn = 0.0510", "warn = 1.0", "gate 2, key warn"),
+            ("warn = 0.0510", "measured = 1.0", "gate 2, key measured"),
             ("\"max_abs\"", "\"max\"", "gate 2, key metric"),
             ("\"max_abs\"", "\"drift\"", "gate 2, key domain"),
             ("\"velinov2018 eq. 29\"", "\" \"", "gate 2, key why"),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::Gate;
+use super::{Gate, Precision};
 
 /// How a gate, or any other check, ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -84,6 +84,8 @@ impl Judgement {
             (Verdict::Fail, None)
         } else if gate.warn.is_some_and(|warn| value >= warn) {
             (Verdict::Warn, None)
+        } else if let Some(stale) = stale(&gate, value) {
+            (Verdict::Warn, Some(stale))
         } else {
             (Verdict::Pass, None)
         };
@@ -126,16 +128,33 @@ impl Judgement {
     }
 }
 
+/// Relative difference from which a recorded number is stale: the digits that files give.
+const STALE: f64 = 1e-3;
+/// The same on a device, where arithmetic is its own.
+const STALE_ON_DEVICE: f64 = 0.05;
+
+/// That the number recorded when the limit was set is no longer the one that is measured.
+fn stale(gate: &Gate, value: f64) -> Option<String> {
+    let recorded = gate.measured?;
+    let tolerance = match gate.precision {
+        Precision::Device => STALE_ON_DEVICE,
+        Precision::F64 | Precision::F32 => STALE,
+    };
+    let near = (value - recorded).abs() <= tolerance * recorded.abs().max(value.abs());
+    (!near).then(|| format!("measured = {recorded} is stale: {} now", rounded(value)))
+}
+
 impl Serialize for Judgement {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let mut out = serializer.serialize_struct("Judgement", 12)?;
+        let mut out = serializer.serialize_struct("Judgement", 13)?;
         let gate = &self.gate;
         out.serialize_field("subject", &gate.subject)?;
         out.serialize_field("metric", &gate.metric)?;
         out.serialize_field("precision", &gate.precision)?;
         out.serialize_field("domain", &gate.domain.as_ref().map(ToString::to_string))?;
         out.serialize_field("limit", &gate.limit)?;
+        out.serialize_field("recorded", &gate.measured)?;
         out.serialize_field("warn", &gate.warn)?;
         out.serialize_field("why", &gate.why)?;
         out.serialize_field("line", &gate.line)?;
