@@ -1,11 +1,13 @@
 //! A run: what a project is measured with, each expensive thing once, whoever asks.
 
+mod accuracy;
 mod checking;
 mod fitting;
 mod reporting;
 
 use rayon::prelude::*;
 
+pub use accuracy::{accuracy_table, write_accuracy};
 pub use fitting::{Job, fit};
 
 use crate::effect::{Candidates, Effect, Member};
@@ -89,6 +91,9 @@ pub enum RunError {
     /// The report could not be written.
     #[error(transparent)]
     Site(#[from] crate::report::html::SiteError),
+    /// A table could not be written.
+    #[error(transparent)]
+    Table(#[from] crate::table::TableError),
     /// A picture of the report could not be made.
     #[error(transparent)]
     Render(#[from] crate::render::RenderError),

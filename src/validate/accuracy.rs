@@ -210,6 +210,8 @@ pub struct Accuracy {
     pub yardstick: Yardstick,
     /// That error on the device; NaN where it has no value.
     pub headline_device: Measured<f64>,
+    /// The error of the f64 optimum by the yardstick.
+    pub headline_f64: f64,
 }
 
 impl Accuracy {
@@ -250,8 +252,11 @@ pub fn accuracy(
         }
     };
     let values = widened(&values_f32(candidate, target)?);
+    let exact = values_f64(candidate, target)?;
+    let f64 = target.residuals(&exact);
     Ok(Accuracy {
-        f64: residuals_f64(candidate, target)?,
+        headline_f64: headline(target.yardstick, &f64, target.relative_l2(&exact).value),
+        f64,
         f32: target.residuals(&values),
         device,
         headline_device,
@@ -265,9 +270,7 @@ pub fn accuracy(
 /// # Errors
 /// If the form cannot be evaluated.
 pub fn residuals_f64(candidate: &Candidate, target: &Target) -> Result<Residuals, ValidateError> {
-    let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
-    let values = candidate.form.eval_f64(&candidate.constants, &inputs)?;
-    Ok(target.residuals(&values[0]))
+    Ok(target.residuals(&values_f64(candidate, target)?))
 }
 
 /// Residuals of the candidate constants in f32.
@@ -300,10 +303,7 @@ pub fn relative_l2(
     precision: Arithmetic<'_>,
 ) -> Result<RelativeL2, ValidateError> {
     let values = match precision {
-        Arithmetic::F64 => {
-            let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
-            candidate.form.eval_f64(&candidate.constants, &inputs)?.swap_remove(0)
-        }
+        Arithmetic::F64 => values_f64(candidate, target)?,
         Arithmetic::F32 => widened(&values_f32(candidate, target)?),
         Arithmetic::Device(device) => widened(&device_values(candidate, target, device)?),
     };
@@ -322,6 +322,11 @@ pub enum Arithmetic<'d> {
 }
 
 /// Values in f32 at the target's points.
+fn values_f64(candidate: &Candidate, target: &Target) -> Result<Vec<f64>, ValidateError> {
+    let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
+    Ok(candidate.form.eval_f64(&candidate.constants, &inputs)?.swap_remove(0))
+}
+
 pub(crate) fn values_f32(
     candidate: &Candidate,
     target: &Target,
