@@ -122,16 +122,21 @@ fn prove_scene(
     }
     let lever = Lever::Output;
     let mut proof = unproved(gate, &lever, 1);
-    for step in STEPS.iter().flat_map(|step| [*step, -*step]) {
-        for constant in subject.constants() {
-            let value = subject.perturbed(gate, &constant, step, device.value())?.value;
-            if beyond(value, gate.limit) {
-                proof.constant = constant;
-                proof.take(Some((step, value)));
-                found.proofs.push(proof);
-                return Ok(());
+    let constants = subject.constants();
+    let trip = smallest(|size| {
+        for step in [size, -size] {
+            for constant in &constants {
+                let value = subject.perturbed(gate, constant, step, device.value())?.value;
+                if beyond(value, gate.limit) {
+                    return Ok(Some((constant.clone(), step, value)));
+                }
             }
         }
+        Ok::<_, GateError>(None)
+    })?;
+    if let Some((constant, step, value)) = trip {
+        proof.constant = constant;
+        proof.take(Some((step, value)));
     }
     found.proofs.push(proof);
     Ok(())
@@ -203,19 +208,44 @@ fn trip(
     shipped: Option<&ShippedConstants>,
     device: Option<&Device>,
 ) -> Result<Option<(f64, f64)>, GateError> {
-    for step in STEPS.iter().flat_map(|step| [*step, -*step]) {
-        let value = match shipped {
-            Some(shipped) => drifted(instance, lever, step, shipped),
-            None => {
-                let (form, target) = instance.perturbed(lever, step);
-                reached(None, &form, &target, gate.metric, gate.precision, device)?.value
+    smallest(|size| {
+        for step in [size, -size] {
+            let value = match shipped {
+                Some(shipped) => drifted(instance, lever, step, shipped),
+                None => {
+                    let (form, target) = instance.perturbed(lever, step);
+                    reached(None, &form, &target, gate.metric, gate.precision, device)?.value
+                }
+            };
+            if beyond(value, gate.limit) {
+                return Ok(Some((step, value)));
             }
-        };
-        if beyond(value, gate.limit) {
-            return Ok(Some((step, value)));
+        }
+        Ok(None)
+    })
+}
+
+/// What trips at the smallest of [`STEPS`] at which something does.
+///
+/// Looked for by bisection, since an error grows with the step; where that finds nothing, step by step.
+fn smallest<T, E>(mut trips: impl FnMut(f64) -> Result<Option<T>, E>) -> Result<Option<T>, E> {
+    let (mut low, mut high) = (0, STEPS.len());
+    let mut found = None;
+    let mut tried = [false; STEPS.len()];
+    while low < high {
+        let middle = (low + high) / 2;
+        tried[middle] = true;
+        match trips(STEPS[middle])? {
+            Some(trip) => (found, high) = (Some(trip), middle),
+            None => low = middle + 1,
         }
     }
-    Ok(None)
+    for (step, tried) in STEPS.iter().zip(tried) {
+        if found.is_none() && !tried {
+            found = trips(*step)?;
+        }
+    }
+    Ok(found)
 }
 
 fn shipped_text(gate: &Gate, evidence: &Evidence<'_>) -> Option<ShippedConstants> {
