@@ -1,5 +1,7 @@
 //! Judges gates.
 
+use rayon::prelude::*;
+
 use super::drift::drift;
 use super::subject::{Subject, reached, worst};
 use super::{Evidence, Gate, GateError, Judgement, Metric, Precision};
@@ -18,35 +20,61 @@ pub fn judge(
     evidence: &mut Evidence<'_>,
     device: &Measured<Device>,
 ) -> Result<Vec<Judgement>, GateError> {
-    gates.iter().map(|gate| judge_one(gate, evidence, device)).collect()
+    let prepared = gates.iter().map(|gate| prepare(gate, evidence, device));
+    let prepared = prepared.collect::<Result<Vec<_>, _>>()?;
+    let judged = prepared.into_par_iter().zip(gates).map(|(prepared, gate)| match prepared {
+        Prepared::Judged(judgement) => Ok(judgement),
+        Prepared::OnLanes(subject) => on_lanes_or_device(gate, &subject, None),
+    });
+    judged.collect()
 }
 
-fn judge_one(
+/// A gate that is judged, or that lanes will judge beside others.
+enum Prepared {
+    Judged(Judgement),
+    OnLanes(Subject),
+}
+
+fn prepare(
     gate: &Gate,
     evidence: &mut Evidence<'_>,
     device: &Measured<Device>,
-) -> Result<Judgement, GateError> {
+) -> Result<Prepared, GateError> {
+    let judged = |judgement| Ok(Prepared::Judged(judgement));
     if gate.scene().is_some() {
         if let (Precision::Device, Measured::NotMeasured(reason)) = (gate.precision, device) {
-            return Ok(Judgement::not_measured(gate.clone(), reason.clone()));
+            return judged(Judgement::not_measured(gate.clone(), reason.clone()));
         }
         let reached = evidence.scene(gate)?.reached(gate, device.value())?;
-        return Ok(Judgement::of(gate.clone(), reached));
+        return judged(Judgement::of(gate.clone(), reached));
     }
     let subject = match evidence.subject(gate)? {
         Ok(subject) => subject,
-        Err(reason) => return Ok(Judgement::failed(gate.clone(), reason)),
+        Err(reason) => return judged(Judgement::failed(gate.clone(), reason)),
     };
     if gate.metric == Metric::Drift {
-        return Ok(match drift(gate, evidence.project().root(), &subject) {
+        return judged(match drift(gate, evidence.project().root(), &subject) {
             Ok(reached) => Judgement::of(gate.clone(), reached),
             Err(reason) => Judgement::failed(gate.clone(), reason),
         });
     }
-    if let (Precision::Device, Measured::NotMeasured(reason)) = (gate.precision, device) {
-        return Ok(Judgement::not_measured(gate.clone(), reason.clone()));
+    match (gate.precision, device) {
+        (Precision::Device, Measured::NotMeasured(reason)) => {
+            judged(Judgement::not_measured(gate.clone(), reason.clone()))
+        }
+        (Precision::Device, Measured::Value(device)) => {
+            judged(on_lanes_or_device(gate, &subject, Some(device))?)
+        }
+        (Precision::F64 | Precision::F32, _) => Ok(Prepared::OnLanes(subject)),
     }
-    Ok(match measure(gate, &subject, device.value())? {
+}
+
+fn on_lanes_or_device(
+    gate: &Gate,
+    subject: &Subject,
+    device: Option<&Device>,
+) -> Result<Judgement, GateError> {
+    Ok(match measure(gate, subject, device)? {
         Some(reached) => Judgement::of(gate.clone(), reached),
         None => Judgement::failed(gate.clone(), "the fit has no members"),
     })

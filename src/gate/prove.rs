@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::subject::{Instance, Lever, Subject, reached};
@@ -60,39 +61,35 @@ pub fn prove(
     device: &Measured<Device>,
 ) -> Result<Proofs, GateError> {
     let mut found = Proofs::default();
+    let mut tasks = Vec::new();
     for gate in gates {
+        if gate.precision == Precision::Device && device.value().is_none() {
+            found.without_device += 1;
+        }
         if gate.scene().is_some() {
             prove_scene(gate, evidence, device, &mut found)?;
             continue;
         }
-        let subject = match evidence.subject(gate)? {
-            Ok(subject) => subject,
+        match evidence.subject(gate)? {
+            Ok(subject) => tasks.push((gate, subject, shipped_text(gate, evidence))),
             Err(reason) => {
                 found.defects.push(format!("{} cannot be tried: {reason}", name(gate)));
-                continue;
-            }
-        };
-        if gate.precision == Precision::Device && device.value().is_none() {
-            found.without_device += 1;
-        }
-        let shipped = shipped_text(gate, evidence);
-        if fails(gate, &subject, shipped.as_ref(), device.value())? {
-            found.defects.push(format!("{} fails as it stands: nothing to show", name(gate)));
-            continue;
-        }
-        let mut levers: Vec<&Lever> = Vec::new();
-        for lever in subject.instances.iter().flat_map(|instance| &instance.levers) {
-            if !levers.iter().any(|known| known.name() == lever.name()) {
-                levers.push(lever);
             }
         }
-        for lever in levers {
-            let mut proof = unproved(gate, lever, subject.instances.len());
-            for instance in &subject.instances {
-                let trip = trip(gate, instance, lever, shipped.as_ref(), device.value())?;
-                proof.take(trip);
-            }
-            found.proofs.push(proof);
+    }
+    // Beside each other on lanes; one after the other on a device, whose queue is one.
+    let prove = |(gate, subject, shipped): &(&Gate, Subject, Option<ShippedConstants>)| {
+        prove_subject(gate, subject, shipped.as_ref(), device.value())
+    };
+    let on_device = |gate: &Gate| gate.precision == Precision::Device && device.value().is_some();
+    let lanes: Vec<_> = tasks
+        .par_iter()
+        .map(|task| if on_device(task.0) { Ok(None) } else { prove(task).map(Some) })
+        .collect::<Result<_, GateError>>()?;
+    for (task, done) in tasks.iter().zip(lanes) {
+        match done.map_or_else(|| prove(task), Ok)? {
+            Ok(proofs) => found.proofs.extend(proofs),
+            Err(defect) => found.defects.push(defect),
         }
     }
     let of_fits = gates.iter().filter(|gate| gate.scene().is_none());
@@ -104,6 +101,32 @@ pub fn prove(
     Ok(found)
 }
 
+/// One proof per lever of a subject, or why there is nothing to show.
+fn prove_subject(
+    gate: &Gate,
+    subject: &Subject,
+    shipped: Option<&ShippedConstants>,
+    device: Option<&Device>,
+) -> Result<Result<Vec<Proof>, String>, GateError> {
+    if fails(gate, subject, shipped, device)? {
+        return Ok(Err(format!("{} fails as it stands: nothing to show", name(gate))));
+    }
+    let mut levers: Vec<&Lever> = Vec::new();
+    for lever in subject.instances.iter().flat_map(|instance| &instance.levers) {
+        if !levers.iter().any(|known| known.name() == lever.name()) {
+            levers.push(lever);
+        }
+    }
+    let proof = |lever: &Lever| {
+        let mut proof = unproved(gate, lever, subject.instances.len());
+        for instance in &subject.instances {
+            proof.take(trip(gate, instance, lever, shipped, device)?);
+        }
+        Ok(proof)
+    };
+    Ok(Ok(levers.into_iter().map(proof).collect::<Result<_, GateError>>()?))
+}
+
 /// Moves the constants of the forms that shade a scene until one trips the gate: the others are
 /// guarded by the gates on the fits that they come from.
 fn prove_scene(
@@ -112,9 +135,6 @@ fn prove_scene(
     device: &Measured<Device>,
     found: &mut Proofs,
 ) -> Result<(), GateError> {
-    if gate.precision == Precision::Device && device.value().is_none() {
-        found.without_device += 1;
-    }
     let subject = evidence.scene(gate)?;
     if beyond(subject.reached(gate, device.value())?.value, gate.limit) {
         found.defects.push(format!("{} fails as it stands: nothing to show", name(gate)));
