@@ -20,7 +20,7 @@ const RUNS: usize = 200;
 
 fn fit(form: &Form, inputs: &[Vec<f64>], target: &[f64]) -> Solution {
     let origins = [Origin::Free(0), Origin::Free(1)];
-    let model = FormModel::new(form, inputs, 0, &origins).expect("two constants");
+    let model = FormModel::new(form, inputs, &[0], &origins).expect("two constants");
     let factors = vec![1.0; target.len()];
     let bounds = [Bounds::default(); 2];
     let problem = Problem::new(&model, target, factors, Loss::LeastSquares, &bounds, &START);

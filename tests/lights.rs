@@ -136,7 +136,7 @@ fn references_match_the_oracle() {
             let row: Vec<f64> =
                 row.expect("a row").iter().map(|text| text.parse().expect("a number")).collect();
             let (value, point) = row.split_last().expect("columns");
-            let got = (reference.evaluate)(point).expect("in the domain");
+            let got = reference.value(point).expect("in the domain");
             let error = ((got - value) / value).abs();
             assert!(error <= STATED, "{name} at {point:?}: {got:e} against {value:e}");
             (worst, rows) = (worst.max(error), rows + 1);
@@ -180,7 +180,7 @@ fn values_converge_or_are_refused() {
                 .into_par_iter()
                 .filter_map(|row| {
                     let point: Vec<f64> = columns.iter().map(|column| column[row]).collect();
-                    match (reference.evaluate)(&point) {
+                    match reference.value(&point) {
                         Ok(value) => {
                             assert!(value.is_finite(), "{point:?}: {value}");
                             None

@@ -35,7 +35,7 @@ fn evaluate(name: &str, names: &[String], row: &[f64]) -> Result<f64, DomainErro
         .iter()
         .map(|argument| row[names.iter().position(|n| n == argument.name).expect("a column")])
         .collect();
-    (reference.evaluate)(&arguments)
+    reference.value(&arguments)
 }
 
 /// Largest error of a reference over the oracle, relative to `peak` of a row.

@@ -114,7 +114,8 @@ fn of_reference(reference: &Reference, points: &Points) -> anyhow::Result<Result
     for row in 0..rows {
         let point: Vec<f64> =
             columns.iter().filter_map(|column| column.get(row).copied()).collect();
-        let value = (reference.evaluate)(&point)
+        let value = reference
+            .value(&point)
             .with_context(|| format!("{}: {}", points.place(row), reference.name))?;
         values.push(format!("{value:?}"));
     }

@@ -41,6 +41,28 @@ pub struct DomainError {
     pub got: f64,
 }
 
+/// What a reference returns at a point, and how.
+#[derive(Debug, Clone, Copy)]
+pub enum Evaluate {
+    /// One number.
+    Scalar(fn(&[f64]) -> Result<f64, DomainError>),
+    /// Several, by name; forms of it return as many and are judged on all of them together.
+    Vector(&'static [&'static str], fn(&[f64]) -> Result<Vec<f64>, DomainError>),
+    /// A distribution of counts. As a vector it is its mean and its variance.
+    Distribution(fn(&[f64]) -> Result<Distribution, DomainError>),
+}
+
+/// A distribution of counts 0, 1, 2 …
+#[derive(Debug, Clone, PartialEq)]
+pub struct Distribution {
+    /// Mean.
+    pub mean: f64,
+    /// Variance.
+    pub variance: f64,
+    /// Probability of each count from 0; what is missing to 1 lies beyond.
+    pub probabilities: Vec<f64>,
+}
+
 /// An exact value, in f64, from a formula independent of every form that it judges.
 #[derive(Debug, Clone, Copy)]
 pub struct Reference {
@@ -56,8 +78,8 @@ pub struct Reference {
     pub accuracy: &'static str,
     /// Source: paper and equation.
     pub source: &'static str,
-    /// The value at one point; `arguments` in the order above.
-    pub evaluate: fn(&[f64]) -> Result<f64, DomainError>,
+    /// What it returns at one point; arguments in the order above.
+    pub evaluate: Evaluate,
 }
 
 /// Text of a form.

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-use super::{DomainError, Reference};
+use super::{Distribution, DomainError, Evaluate, Reference};
 
 /// A point at which a reference has no value.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,22 +47,74 @@ impl ReferenceValues {
 }
 
 impl Reference {
-    /// Values over `columns`, one per argument in their order.
+    /// Names of what it returns: `value`, the components of a vector, `mean` and `variance` of a
+    /// distribution.
+    pub fn outputs(&self) -> &'static [&'static str] {
+        match self.evaluate {
+            Evaluate::Scalar(_) => &["value"],
+            Evaluate::Vector(names, _) => names,
+            Evaluate::Distribution(_) => &["mean", "variance"],
+        }
+    }
+
+    /// The value of a scalar at one point, arguments in their order; of a vector the first component, of a
+    /// distribution the mean.
+    ///
+    /// # Errors
+    /// [`DomainError`] outside the domain.
+    pub fn value(&self, point: &[f64]) -> Result<f64, DomainError> {
+        match self.evaluate {
+            Evaluate::Scalar(value) => value(point),
+            Evaluate::Vector(..) | Evaluate::Distribution(_) => {
+                Ok(self.values(point)?.first().copied().unwrap_or(f64::NAN))
+            }
+        }
+    }
+
+    /// Everything it returns at one point, in the order of [`Self::outputs`].
+    ///
+    /// # Errors
+    /// [`DomainError`] outside the domain.
+    pub fn values(&self, point: &[f64]) -> Result<Vec<f64>, DomainError> {
+        match self.evaluate {
+            Evaluate::Scalar(value) => Ok(vec![value(point)?]),
+            Evaluate::Vector(_, values) => values(point),
+            Evaluate::Distribution(distribution) => {
+                let Distribution { mean, variance, .. } = distribution(point)?;
+                Ok(vec![mean, variance])
+            }
+        }
+    }
+
+    /// Values over `columns`, one per argument in their order: all rows of the first output, then those of
+    /// the next.
     ///
     /// # Errors
     /// [`NoValue`] with the first row outside the domain.
     pub fn over(&self, columns: &[&[f64]]) -> Result<Vec<f64>, NoValue> {
         let rows = columns.first().map_or(0, |column| column.len());
-        let value = |row: usize| {
-            let point: Vec<f64> = columns.iter().map(|column| column[row]).collect();
-            (self.evaluate)(&point).map_err(|source| NoValue { row, source })
+        let point = |row: usize| -> Vec<f64> { columns.iter().map(|column| column[row]).collect() };
+        if let Evaluate::Scalar(_) = self.evaluate {
+            return in_order(rows, |row| self.value(&point(row)));
+        }
+        let all = in_order(rows, |row| self.values(&point(row)))?;
+        let of = |output: usize| {
+            all.iter().map(move |values| values.get(output).copied().unwrap_or(f64::NAN))
         };
-        // Rayon returns any error: the first one is found again, so that a message does not depend on
-        // the number of threads.
-        (0..rows)
-            .into_par_iter()
-            .map(value)
-            .collect::<Result<Vec<_>, _>>()
-            .or_else(|error| Err((0..error.row).find_map(|row| value(row).err()).unwrap_or(error)))
+        Ok((0..self.outputs().len()).flat_map(of).collect())
     }
+}
+
+/// `value` of every row, in parallel; the fault of the first row that has one, whatever the number of
+/// threads.
+fn in_order<T: Send>(
+    rows: usize,
+    value: impl Fn(usize) -> Result<T, DomainError> + Sync,
+) -> Result<Vec<T>, NoValue> {
+    let value = |row: usize| value(row).map_err(|source| NoValue { row, source });
+    (0..rows)
+        .into_par_iter()
+        .map(value)
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(|error| (0..error.row).find_map(|row| value(row).err()).unwrap_or(error))
 }

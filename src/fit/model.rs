@@ -38,10 +38,11 @@ pub enum Origin {
     Fixed(f64),
 }
 
-/// A [`Form`] at the points of a table, one of its output columns.
+/// A [`Form`] at the points of a table: some of its output columns, all rows of the first before those of
+/// the next.
 pub struct FormModel<'a> {
     inputs: Vec<&'a [f64]>,
-    output: usize,
+    outputs: &'a [usize],
     origins: &'a [Origin],
     owners: Vec<usize>,
     free: usize,
@@ -51,7 +52,7 @@ pub struct FormModel<'a> {
 
 impl<'a> FormModel<'a> {
     /// `origins` in the order of [`Form::parameters`]; `inputs` one column per input column;
-    /// `output` the index of the output column. Several `override`s may share a free constant:
+    /// `outputs` the indices of the output columns. Several `override`s may share a free constant:
     /// they are tied.
     ///
     /// # Errors
@@ -59,7 +60,7 @@ impl<'a> FormModel<'a> {
     pub fn new(
         form: &Form,
         inputs: &'a [Vec<f64>],
-        output: usize,
+        outputs: &'a [usize],
         origins: &'a [Origin],
     ) -> Result<Self, FormError> {
         let (varying, owners): (Vec<_>, Vec<_>) = origins
@@ -73,7 +74,7 @@ impl<'a> FormModel<'a> {
         let empty = Dual { values: Vec::new(), derivatives: Vec::new() };
         Ok(Self {
             inputs: inputs.iter().map(Vec::as_slice).collect(),
-            output,
+            outputs,
             origins,
             free: owners.iter().max().map_or(0, |last| last + 1),
             owners,
@@ -99,20 +100,23 @@ impl Model for FormModel<'_> {
         let mut columns = Vec::new();
         let overrides = self.overrides(free);
         self.evaluator.borrow_mut().eval_into(&overrides, &self.inputs, &mut columns)?;
-        Ok(columns.into_iter().nth(self.output).unwrap_or_default())
+        let column = |output: &usize| columns.get(*output).into_iter().flatten().copied();
+        Ok(self.outputs.iter().flat_map(column).collect())
     }
 
     fn linearise(&self, free: &[f64]) -> Result<Linearisation, FormError> {
         let mut kept = self.dual.borrow_mut();
         let (evaluator, dual) = &mut *kept;
         evaluator.eval_into(&self.overrides(free), &self.inputs, dual)?;
-        let values = dual.values.get(self.output).cloned().unwrap_or_default();
+        let value = |output: &usize| dual.values.get(*output).into_iter().flatten().copied();
+        let values = self.outputs.iter().flat_map(value).collect();
         let mut derivatives: Vec<Vec<f64>> = vec![Vec::new(); self.free];
-        let by_override = dual.derivatives.get(self.output).into_iter().flatten();
-        for (column, owner) in by_override.zip(&self.owners) {
+        for (place, owner) in self.owners.iter().enumerate() {
+            let of = |output: &usize| dual.derivatives.get(*output)?.get(place);
+            let column = self.outputs.iter().filter_map(of).flatten().copied();
             if let Some(sum) = derivatives.get_mut(*owner) {
                 if sum.is_empty() {
-                    sum.clone_from(column);
+                    sum.extend(column);
                 } else {
                     sum.iter_mut().zip(column).for_each(|(s, c)| *s += c);
                 }

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use super::outcome::Residuals;
 
 impl Residuals {
-    /// Statistics of `values − target`; `columns` are the inputs called `names`.
+    /// Statistics of `values − target`; `columns` are the inputs called `names`; of several
+    /// outputs all rows of the first stand before those of the next.
     ///
     /// Percentiles are by nearest rank, so each is the error of some point. A NaN counts as the
     /// largest error.
@@ -18,7 +19,10 @@ impl Residuals {
         let errors: Vec<f64> = values.iter().zip(target).map(|(v, t)| v - t).collect();
         let count = errors.len();
         let at = |i: usize| -> BTreeMap<String, f64> {
-            let value = |column: &Vec<f64>| column.get(i).copied().unwrap_or(f64::NAN);
+            // Several outputs stand one after the other.
+            let value = |column: &Vec<f64>| {
+                column.get(i % column.len().max(1)).copied().unwrap_or(f64::NAN)
+            };
             names.iter().cloned().zip(columns.iter().map(value)).collect()
         };
         let mut magnitudes: Vec<f64> = errors.iter().map(|e| e.abs()).collect();

@@ -33,8 +33,8 @@ pub struct Shipped<'a> {
     pub origins: &'a [Origin],
     /// Input columns.
     pub inputs: Vec<Vec<f32>>,
-    /// Which output column.
-    pub output: usize,
+    /// Which output columns.
+    pub outputs: &'a [usize],
     /// The target.
     pub target: &'a [f64],
     /// The factors of the residuals.
@@ -60,8 +60,9 @@ impl Shipped<'_> {
             })
             .collect();
         let inputs: Vec<&[f32]> = self.inputs.iter().map(Vec::as_slice).collect();
-        let mut columns = self.form.eval_f32(&overrides, &inputs)?;
-        Ok(columns.get_mut(self.output).map(std::mem::take).unwrap_or_default())
+        let columns = self.form.eval_f32(&overrides, &inputs)?;
+        let column = |output: &usize| columns.get(*output).into_iter().flatten().copied();
+        Ok(self.outputs.iter().flat_map(column).collect())
     }
 
     /// The loss of the shipped expression; infinite where it is not finite.

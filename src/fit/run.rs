@@ -128,7 +128,6 @@ struct Fit<'a> {
     form: &'a Form,
     assembly: Assembly,
     inputs: Vec<String>,
-    output: usize,
 }
 
 impl<'a> Fit<'a> {
@@ -137,15 +136,27 @@ impl<'a> Fit<'a> {
         if let Some(objection) = spec.solver.objection(spec.loss, assembly.free.len()) {
             return Err(spec.fault("solver.kind", objection));
         }
-        let outputs = form.output_columns();
-        let output = match &spec.output {
-            Some(name) => outputs.iter().position(|o| o == name),
-            None => (outputs.len() == 1).then_some(0),
+        Ok(Self { spec, form, assembly, inputs: form.input_columns() })
+    }
+
+    /// The outputs of the form that `points` have a target for: all of them for as many, else the one that
+    /// the spec names.
+    fn outputs(&self, points: &Points) -> Result<Vec<usize>, FitError> {
+        let names = self.form.output_columns();
+        if points.outputs > 1 {
+            if self.spec.output.is_none() && names.len() == points.outputs {
+                return Ok((0..names.len()).collect());
+            }
+            let what =
+                format!("{} targets need as many outputs: {}", points.outputs, names.join(", "));
+            return Err(self.spec.fault("output", what));
+        }
+        let output = match &self.spec.output {
+            Some(name) => names.iter().position(|output| output == name),
+            None => (names.len() == 1).then_some(0),
         };
-        let output = output.ok_or_else(|| {
-            spec.fault("output", format!("expected one of {}", outputs.join(", ")))
-        })?;
-        Ok(Self { spec, form, assembly, inputs: form.input_columns(), output })
+        let wrong = || self.spec.fault("output", format!("expected one of {}", names.join(", ")));
+        Ok(vec![output.ok_or_else(wrong)?])
     }
 
     fn points_of(
@@ -263,9 +274,10 @@ impl<'a> Fit<'a> {
     ) -> Result<Outcome, FitError> {
         let (spec, assembly) = (self.spec, &self.assembly);
         points.require_rows(assembly.free.len())?;
-        let model = self.model(points)?;
+        let outputs = self.outputs(points)?;
+        let model = self.model(points, &outputs)?;
         let factors = factors(spec.loss, &points.target, points.weights.as_deref());
-        let solutions = self.solutions(points, &factors)?;
+        let solutions = self.solutions(points, &outputs, &factors)?;
         let evaluations = solutions.iter().map(|(_, s)| s.evaluations).sum();
         let start_outcomes = solutions.iter().map(|(start, s)| self.start_outcome(start, s));
         let start_outcomes: Vec<StartOutcome> = start_outcomes.collect();
@@ -287,7 +299,7 @@ impl<'a> Fit<'a> {
             form: self.form,
             origins: &assembly.origins,
             inputs: single_columns(&points.columns),
-            output: self.output,
+            outputs: &outputs,
             target: &points.target,
             factors: &factors,
             loss: spec.loss,
@@ -342,22 +354,27 @@ impl<'a> Fit<'a> {
         })
     }
 
-    fn model<'p>(&'p self, points: &'p Points) -> Result<FormModel<'p>, FitError> {
+    fn model<'p>(
+        &'p self,
+        points: &'p Points,
+        outputs: &'p [usize],
+    ) -> Result<FormModel<'p>, FitError> {
         let origins = &self.assembly.origins;
-        Ok(FormModel::new(self.form, &points.columns, self.output, origins)?)
+        Ok(FormModel::new(self.form, &points.columns, outputs, origins)?)
     }
 
     /// The solution from each start, in order.
     fn solutions(
         &self,
         points: &Points,
+        outputs: &[usize],
         factors: &[f64],
     ) -> Result<Vec<(Vec<f64>, Solution)>, FitError> {
         let (spec, assembly) = (self.spec, &self.assembly);
         starts(&assembly.start, &assembly.bounds, spec.multi_start, spec.seed)
             .into_par_iter()
             .map(|start| {
-                let model = self.model(points)?;
+                let model = self.model(points, outputs)?;
                 let problem = Problem::new(
                     &model,
                     &points.target,

@@ -30,8 +30,10 @@ pub struct Points {
     pub names: Vec<String>,
     /// One column per input.
     pub columns: Vec<Vec<f64>>,
-    /// The values wanted.
+    /// The values wanted; of several outputs all rows of the first before those of the next.
     pub target: Vec<f64>,
+    /// How many outputs have a target.
+    pub outputs: usize,
     /// Weights of the squared residuals.
     pub weights: Option<Vec<f64>>,
     /// What the residuals mean.
@@ -96,6 +98,7 @@ impl Points {
             columns: inputs.iter().map(column_of).collect(),
             names: inputs.to_vec(),
             target,
+            outputs: reference.outputs().len(),
             weights: None,
             noise: Noise::Exact,
         };
@@ -132,12 +135,17 @@ impl Points {
                 source,
             })?
             .to_vec();
-        table.columns.push(Column::new("target", "1", target));
+        let rows = table.rows().max(1);
+        let names: Vec<String> =
+            reference.outputs().iter().map(|o| format!("target {o}")).collect();
+        for (name, values) in names.iter().zip(target.chunks(rows)) {
+            table.columns.push(Column::new(name, "1", values.to_vec()));
+        }
         let weight = match table.column(WEIGHT) {
             Some(_) => Weighting::Column(WEIGHT.to_owned()),
             None => Weighting::Equal,
         };
-        Self::of_table(region, &table, inputs, "target", &weight, loss, Noise::Exact)
+        Self::of_table(region, &table, inputs, &names.join(","), &weight, loss, Noise::Exact)
     }
 
     /// The rows of a table: the form's `inputs` and `column` are among its columns.
@@ -161,20 +169,35 @@ impl Points {
             })?;
             Ok(column.values.clone())
         };
+        // `y,z`: a target for each of several outputs.
+        let targets: Vec<&str> = column.split(',').map(str::trim).collect();
+        let joined = |columns: Vec<Vec<f64>>| columns.concat();
         let weights = match weight {
             Weighting::Equal => None,
-            Weighting::Column(name) => Some((name.clone(), named(name)?)),
+            Weighting::Column(name) => {
+                Some((name.clone(), joined(vec![named(name)?; targets.len()])))
+            }
             Weighting::Uncertainty => {
-                table.column(column).and_then(|c| c.uncertainty.as_ref()).map(|u| {
-                    (format!("u({column}), as weight"), u.iter().map(|u| 1.0 / (u * u)).collect())
-                })
+                let of = |name: &&str| table.column(name)?.uncertainty.as_ref();
+                let known: Vec<&Vec<f64>> = targets.iter().filter_map(of).collect();
+                if !known.is_empty() && known.len() != targets.len() {
+                    return Err(FitError::Table {
+                        table: label.to_owned(),
+                        what: format!("some of {column} have an uncertainty and some have none"),
+                    });
+                }
+                let weight = |u: &&Vec<f64>| u.iter().map(|u| 1.0 / (u * u)).collect();
+                let name = format!("u({column}), as weight");
+                (!known.is_empty()).then(|| (name, joined(known.iter().map(weight).collect())))
             }
         };
+        let target = targets.iter().map(|name| named(name)).collect::<Result<_, _>>()?;
         let points = Self {
             label: label.to_owned(),
             columns: inputs.iter().map(|input| named(input)).collect::<Result<_, _>>()?,
             names: inputs.to_vec(),
-            target: named(column)?,
+            target: joined(target),
+            outputs: targets.len(),
             weights: weights.as_ref().map(|(_, values)| values.clone()),
             noise,
         };
@@ -217,8 +240,12 @@ impl Points {
     fn fault(&self, row: usize, column: &str, what: &str) -> FitError {
         FitError::Table {
             table: self.label.clone(),
-            what: format!("row {}, column `{column}`: {what}", row + 1),
+            what: format!("row {}, column `{column}`: {what}", row % self.rows().max(1) + 1),
         }
+    }
+
+    fn rows(&self) -> usize {
+        self.target.len() / self.outputs.max(1)
     }
 
     /// Checks that there are at least as many rows as free parameters.

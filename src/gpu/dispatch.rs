@@ -38,6 +38,11 @@ impl Device {
 }
 
 impl Kernel<'_> {
+    /// Where the text comes from.
+    pub fn origin(&self) -> &str {
+        &self.program.origin
+    }
+
     /// Evaluates the form at every row of `inputs`.
     ///
     /// `inputs`: one column per entry of [`Form::input_columns`], all of one length. Returns one

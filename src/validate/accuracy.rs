@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::effect::{Candidate, Reference, Yardstick};
+use crate::effect::{Candidate, NoValue, Reference, Yardstick};
 #[cfg(doc)]
 use crate::effect::{Candidate, Region};
 use crate::fit::outcome::Residuals;
@@ -22,8 +21,10 @@ pub struct Target {
     pub arguments: Vec<String>,
     /// One column per argument.
     pub inputs: Vec<Vec<f64>>,
-    /// The true values.
+    /// The true values; of several outputs all rows of the first before those of the next.
     pub values: Vec<f64>,
+    /// How many outputs are judged together.
+    pub outputs: usize,
     /// What the points are grouped by, and its value at each; see [`Region::by`].
     pub groups: Option<(&'static str, Vec<f64>)>,
     /// The error by which forms are compared here.
@@ -35,8 +36,10 @@ pub struct Target {
 pub struct Judged {
     /// Columns for every argument of the reference, and further ones.
     pub points: Table,
-    /// The true values.
+    /// The true values; of several outputs all rows of the first before those of the next.
     pub values: Vec<f64>,
+    /// How many outputs the reference has.
+    pub outputs: usize,
     /// The argument that parts the points into groups.
     pub by: Option<&'static str>,
     /// The error by which forms are compared here.
@@ -59,17 +62,14 @@ impl Judged {
             .iter()
             .map(|argument| column(&points, argument.name))
             .collect::<Result<Vec<_>, _>>()?;
-        let value = |row: usize| {
-            let point: Vec<f64> = columns.iter().map(|column| column[row]).collect();
-            (reference.evaluate)(&point).map_err(|source| ValidateError::Reference {
-                reference: reference.name,
-                row: row + 1,
-                source,
-            })
+        let failed = |NoValue { row, source }| ValidateError::Reference {
+            reference: reference.name,
+            row: row + 1,
+            source,
         };
-        let values =
-            (0..points.rows()).into_par_iter().map(value).collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { points, values, by, yardstick })
+        let values = reference.over(&columns).map_err(failed)?;
+        let outputs = reference.outputs().len();
+        Ok(Self { points, values, outputs, by, yardstick })
     }
 
     /// Whether the points have every input of `form`.
@@ -91,8 +91,8 @@ impl Judged {
             None => None,
             Some(by) => Some((by, column(&self.points, by)?.to_vec())),
         };
-        let (values, yardstick) = (self.values.clone(), self.yardstick);
-        Ok(Target { arguments, inputs, values, groups, yardstick })
+        let (values, outputs, yardstick) = (self.values.clone(), self.outputs, self.yardstick);
+        Ok(Target { arguments, inputs, values, outputs, groups, yardstick })
     }
 }
 
@@ -120,17 +120,20 @@ impl Target {
             .map(|argument| column(table, argument).map(<[f64]>::to_vec))
             .collect::<Result<Vec<_>, _>>()?;
         let values = column(table, "value")?.to_vec();
-        Ok(Self { arguments, inputs, values, groups: None, yardstick: Yardstick::MaxAbs })
+        let (outputs, yardstick) = (1, Yardstick::MaxAbs);
+        Ok(Self { arguments, inputs, values, outputs, groups: None, yardstick })
     }
 
     /// The points of all in one group, for targets of the same arguments; none of none.
     pub fn all(targets: impl IntoIterator<Item = Self>) -> Option<Self> {
         targets.into_iter().reduce(|mut all, more| {
             all.groups = None;
+            let rows = [&all, &more].map(|target| target.values.len() / target.outputs.max(1));
+            let parts = all.values.chunks(rows[0].max(1)).zip(more.values.chunks(rows[1].max(1)));
+            all.values = parts.flat_map(|(own, added)| own.iter().chain(added).copied()).collect();
             for (column, added) in all.inputs.iter_mut().zip(more.inputs) {
                 column.extend(added);
             }
-            all.values.extend(more.values);
             all
         })
     }
@@ -141,7 +144,8 @@ impl Target {
     pub fn relative_l2(&self, values: &[f64]) -> RelativeL2 {
         let mut sums: BTreeMap<u64, (f64, f64, f64)> = BTreeMap::new();
         for (at, (value, target)) in values.iter().zip(&self.values).enumerate() {
-            let group = self.groups.as_ref().map_or(0.0, |(_, column)| column[at]);
+            let of = |(_, column): &(_, Vec<f64>)| column[at % column.len()];
+            let group = self.groups.as_ref().map_or(0.0, of);
             let sum = sums.entry(group.to_bits()).or_insert((group, 0.0, 0.0));
             sum.1 += (value - target) * (value - target);
             sum.2 += target * target;
@@ -166,6 +170,7 @@ impl Target {
             arguments: Vec::new(),
             inputs: Vec::new(),
             values: Vec::new(),
+            outputs: 1,
             groups: None,
             yardstick: Yardstick::MaxAbs,
         }
@@ -324,7 +329,7 @@ pub enum Arithmetic<'d> {
 /// Values in f32 at the target's points.
 fn values_f64(candidate: &Candidate, target: &Target) -> Result<Vec<f64>, ValidateError> {
     let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
-    Ok(candidate.form.eval_f64(&candidate.constants, &inputs)?.swap_remove(0))
+    joined(candidate.form.origin(), target, candidate.form.eval_f64(&candidate.constants, &inputs)?)
 }
 
 pub(crate) fn values_f32(
@@ -333,8 +338,11 @@ pub(crate) fn values_f32(
 ) -> Result<Vec<f32>, ValidateError> {
     let narrow = narrowed(&target.inputs);
     let inputs: Vec<&[f32]> = narrow.iter().map(Vec::as_slice).collect();
-    let mut values = candidate.form.eval_f32(&candidate.constants_f32, &inputs)?;
-    Ok(values.swap_remove(0))
+    joined(
+        candidate.form.origin(),
+        target,
+        candidate.form.eval_f32(&candidate.constants_f32, &inputs)?,
+    )
 }
 
 /// Values on the device at the target's points.
@@ -351,8 +359,23 @@ pub(crate) fn kernel_values(
     kernel: &Kernel<'_>,
     target: &Target,
 ) -> Result<Vec<f32>, ValidateError> {
-    let mut values = kernel.evaluate(&narrowed(&target.inputs))?;
-    Ok(values.swap_remove(0))
+    let values = kernel.evaluate(&narrowed(&target.inputs))?;
+    joined(kernel.origin(), target, values)
+}
+
+/// The outputs that `target` has values for, one after the other.
+fn joined<T: Copy>(
+    form: &str,
+    target: &Target,
+    mut outputs: Vec<Vec<T>>,
+) -> Result<Vec<T>, ValidateError> {
+    match target.outputs {
+        1 => Ok(outputs.swap_remove(0)),
+        wanted if wanted == outputs.len() => Ok(outputs.concat()),
+        expected => {
+            Err(ValidateError::Outputs { form: form.to_owned(), expected, got: outputs.len() })
+        }
+    }
 }
 
 fn narrowed(columns: &[Vec<f64>]) -> Vec<Vec<f32>> {

@@ -51,6 +51,16 @@ pub enum ValidateError {
     /// What the effect shows beyond its fits could not be made.
     #[error(transparent)]
     Exhibit(#[from] ExhibitError),
+    /// A form returns another number of values than its reference.
+    #[error("{form}: returns {got} values, its reference {expected}")]
+    Outputs {
+        /// Origin of the form.
+        form: String,
+        /// Values of the reference.
+        expected: usize,
+        /// Values of the form.
+        got: usize,
+    },
     /// What a project names could not be had.
     #[error(transparent)]
     Project(#[from] ProjectError),

@@ -65,7 +65,8 @@ pub fn parity(
         found.max_abs = found.max_abs.max((f64::from(*lane) - f64::from(*device)).abs());
         if distance > found.max_ulp {
             found.max_ulp = distance;
-            found.max_ulp_at = target.inputs.iter().map(|column| column[row]).collect();
+            found.max_ulp_at =
+                target.inputs.iter().map(|column| column[row % column.len()]).collect();
         }
     }
     Ok(found)

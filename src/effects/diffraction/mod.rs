@@ -93,7 +93,7 @@ pub use table::{
     relative_l2,
 };
 
-use crate::effect::{DomainError, Effect, Quantity, Reference};
+use crate::effect::{DomainError, Effect, Evaluate, Quantity, Reference};
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -126,10 +126,10 @@ const SINUSOID: Reference = Reference {
     unit: "1",
     accuracy: "absolute error <= 1e-13 (tests/diffraction.rs)",
     source: "Jacobi-Anger expansion; Goodman, Introduction to Fourier Optics, 4.4.4",
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [order, phase] = exactly(point)?;
         sinusoid_order_power(reference::whole(order)?, phase)
-    },
+    }),
 };
 
 /// Order 0, of the amplitude of the phase alone: what forms approximate.
@@ -137,10 +137,10 @@ pub(super) const ZERO_ORDER: Reference = Reference {
     name: "sinusoid_zero_order",
     description: "share of the power that a sinusoidal relief leaves in the mirror direction, J_0(a)^2",
     arguments: &[PHASE],
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [phase] = exactly(point)?;
         sinusoid_order_power(0, phase)
-    },
+    }),
     ..SINUSOID
 };
 
@@ -149,10 +149,10 @@ pub(super) const FIRST_ORDER: Reference = Reference {
     name: "sinusoid_first_order",
     description: "share of the power that a sinusoidal relief sends into one first order, J_1(a)^2",
     arguments: &[PHASE],
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [phase] = exactly(point)?;
         sinusoid_order_power(1, phase)
-    },
+    }),
     ..SINUSOID
 };
 
@@ -164,10 +164,10 @@ const RECTANGLE: Reference = Reference {
     unit: "1",
     accuracy: "absolute error <= 1e-13 (tests/diffraction.rs)",
     source: "Fourier series of a rectangular phase",
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [order, duty, phase] = exactly(point)?;
         rectangular_order_power(reference::whole(order)?, duty, phase)
-    },
+    }),
 };
 
 /// The arguments, whose number the caller may have got wrong.

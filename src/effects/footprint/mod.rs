@@ -57,7 +57,7 @@ mod regions;
 pub use end::{ScratchEnd, response_at_end};
 pub use reference::{coverage, response};
 
-use crate::effect::{DomainError, Effect, Goal, Quantity, Reference};
+use crate::effect::{DomainError, Effect, Evaluate, Goal, Quantity, Reference};
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -108,10 +108,10 @@ const RESPONSE: Reference = Reference {
     accuracy: "relative error <= 1e-10 for h <= 1000 where the value exceeds 1e-300 \
                (tests/footprint.rs)",
     source: "velinov2018 eq. 10 and 13, integrated exactly",
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [h, s] = exactly(point)?;
         response(h, s)
-    },
+    }),
 };
 
 const COVERAGE: Reference = Reference {
@@ -123,10 +123,10 @@ const COVERAGE: Reference = Reference {
     accuracy: "relative error <= 1e-10 for h <= 1000 where the value exceeds 1e-300 \
                (tests/footprint.rs)",
     source: "velinov2018 eq. 17 and 18, integrated exactly",
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [h, s] = exactly(point)?;
         coverage(h, s)
-    },
+    }),
 };
 
 const SIGNED: &str = "[-1e4, 1e4]";
@@ -145,10 +145,10 @@ const END: Reference = Reference {
     unit: "1",
     accuracy: "error <= 1e-9 of footprint_response (tests/footprint.rs)",
     source: "velinov2018 eq. 5 with xi_1 = 0, integrated over the footprint",
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [half_extent, half_length, shear, offset, end] = exactly(point)?;
         response_at_end(ScratchEnd { half_extent, half_length, shear, offset, end })
-    },
+    }),
 };
 
 /// The arguments, whose number the caller may have got wrong.

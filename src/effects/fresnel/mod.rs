@@ -41,7 +41,7 @@ mod laws;
 pub mod materials;
 pub mod reference;
 
-use crate::effect::{DomainError, Effect, Quantity, Reference, Region, Yardstick};
+use crate::effect::{DomainError, Effect, Evaluate, Quantity, Reference, Region, Yardstick};
 use crate::table::{Column, Table};
 
 /// The effect, as registered.
@@ -77,10 +77,10 @@ const CONDUCTOR: Reference = Reference {
     unit: "1",
     accuracy: "relative error <= 1e-13 (tests/fresnel.rs; 1.8e-15 at most against mpmath)",
     source: "Born & Wolf, Principles of Optics, 1.5.2 and 14.2",
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [mu, n, k] = exactly(point)?;
         reference::conductor(mu, n, k).map(reference::Reflectance::mean)
-    },
+    }),
 };
 
 const DIELECTRIC: Reference = Reference {
@@ -90,10 +90,10 @@ const DIELECTRIC: Reference = Reference {
     unit: "1",
     accuracy: "relative error <= 1e-13 (tests/fresnel.rs; 1.8e-15 at most against mpmath)",
     source: "Born & Wolf, Principles of Optics, 1.5.2 to 1.5.4",
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [mu, eta] = exactly(point)?;
         reference::dielectric(mu, eta).map(reference::Reflectance::mean)
-    },
+    }),
 };
 
 const SCHLICK_WEIGHT: Reference = Reference {
@@ -103,10 +103,10 @@ const SCHLICK_WEIGHT: Reference = Reference {
     unit: "1",
     accuracy: "relative error <= 1e-15 (five roundings)",
     source: "Schlick, Computer Graphics Forum 13(3), 1994, eq. 15",
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [mu] = exactly(point)?;
         reference::schlick_weight(mu)
-    },
+    }),
 };
 
 /// The arguments, whose number the caller may have got wrong.

@@ -1,7 +1,7 @@
 //! Reflectances as scalars, with their domains: what `striae eval` computes and forms are judged by.
 
 use super::surface::{Coherence, Directions, Scratch, coherent_amplitude, svbrdf};
-use crate::effect::{DomainError, Quantity, Reference};
+use crate::effect::{DomainError, Evaluate, Quantity, Reference};
 
 const fn quantity(name: &'static str, unit: &'static str, domain: &'static str) -> Quantity {
     Quantity { name, unit, domain }
@@ -62,10 +62,10 @@ pub(super) const SCRATCH: Reference = Reference {
     unit: "1/sr",
     accuracy: ACCURACY,
     source: "velinov2018 eq. 2, 3, 5; fig. 3 for the depth phase",
-    evaluate: |arguments| {
+    evaluate: Evaluate::Scalar(|arguments| {
         let (scratch, light, directions) = one(arguments)?;
         Ok(scratch.amplitude(light, directions).norm_sqr())
-    },
+    }),
 };
 
 /// |ℬ − 𝒮|²/(πσ²λ²) of one finite scratch in a smooth mirror.
@@ -77,10 +77,10 @@ pub(super) const SCRATCHED_MIRROR: Reference = Reference {
     unit: "1/sr",
     accuracy: ACCURACY,
     source: "velinov2018 eq. 1 with B = 2 pi sigma^2 exp(-sigma^2 k^2 |xi|^2 / 2)",
-    evaluate: |arguments| {
+    evaluate: Evaluate::Scalar(|arguments| {
         let (scratch, light, directions) = one(arguments)?;
         Ok(svbrdf(&[scratch], light, directions))
-    },
+    }),
 };
 
 /// |𝒮₁ + 𝒮₂|²/(πσ²λ²) of two infinite scratches.
@@ -92,10 +92,10 @@ pub(super) const PAIR: Reference = Reference {
     unit: "1/sr",
     accuracy: ACCURACY,
     source: "velinov2018 eq. 2, 3, 8; fig. 3 for the depth phase",
-    evaluate: |arguments| {
+    evaluate: Evaluate::Scalar(|arguments| {
         let (scratches, light, directions) = pair(arguments)?;
         Ok(coherent_amplitude(&scratches, light, directions).norm_sqr())
-    },
+    }),
 };
 
 /// ρ_c of one finite scratch.
@@ -107,12 +107,12 @@ pub(super) const DENSITY: Reference = Reference {
     unit: "1",
     accuracy: "error <= 1e-12 of the infinite scratch's (tests/scratch_response.rs)",
     source: "velinov2018 eq. 17, first line",
-    evaluate: |arguments| {
+    evaluate: Evaluate::Scalar(|arguments| {
         let [width_um, sigma_um, offset_um, begin_um, end_um] =
             values(arguments, DENSITY_ARGUMENTS)?;
         let scratch = along_first_axis(width_um, 0.0, offset_um, [begin_um, end_um]);
         Ok(scratch.density(sigma_um))
-    },
+    }),
 };
 
 /// A scratch along the first axis, in whose frame ξ is then given.

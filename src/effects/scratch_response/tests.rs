@@ -86,8 +86,7 @@ fn forms_are_as_accurate_as_measured() {
                 (0.0_f64, std::collections::BTreeMap::<u64, Vec<_>>::new());
             for (i, value) in values.iter().enumerate() {
                 let point: Vec<f64> = arguments.iter().map(|c| c[i]).collect();
-                let exact =
-                    (reference.evaluate)(&point).unwrap_or_else(|e| panic!("{point:?}: {e}"));
+                let exact = reference.value(&point).unwrap_or_else(|e| panic!("{point:?}: {e}"));
                 assert!(value.is_finite(), "{} {point:?}: {value}", entry.name);
                 let group = region.by.and_then(column).map_or(0, |c| c[i].to_bits());
                 pairs.entry(group).or_default().push((f64::from(*value), exact));

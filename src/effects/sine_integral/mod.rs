@@ -26,7 +26,7 @@ mod reference;
 
 pub use reference::{auxiliary, sine_integral};
 
-use crate::effect::{Effect, FormEntry, Quantity, Reference, Source};
+use crate::effect::{Effect, Evaluate, FormEntry, Quantity, Reference, Source};
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -56,7 +56,9 @@ const REFERENCE: Reference = Reference {
     accuracy: "relative error <= 1e-14 for every finite x, odd to the bit (tests/references.rs)",
     source: "Abramowitz & Stegun 5.2.14, 5.1.22, 5.2.34-35",
     // A call without its argument has no value.
-    evaluate: |arguments| Ok(sine_integral(arguments.first().copied().unwrap_or(f64::NAN))),
+    evaluate: Evaluate::Scalar(|arguments| {
+        Ok(sine_integral(arguments.first().copied().unwrap_or(f64::NAN)))
+    }),
 };
 
 /// Name of the WGSL function in every form.

@@ -42,7 +42,7 @@ pub(super) use laws::{ADDITIVE, ANTISYMMETRIC, EVEN, POSITIVE, TOTAL};
 pub use reference::sinc_squared_band;
 pub(super) use regions::{LOBES, NARROW, SCENE_BANDS};
 
-use crate::effect::{FormEntry, Quantity, Reference, Source};
+use crate::effect::{Evaluate, FormEntry, Quantity, Reference, Source};
 
 /// The band integral, as registered.
 pub(super) const REFERENCE: Reference = Reference {
@@ -55,11 +55,11 @@ pub(super) const REFERENCE: Reference = Reference {
     unit: "1",
     accuracy: "relative error <= 1e-13 for every band, however narrow or far (tests/band.rs)",
     source: "velinov2018 eq. 25 and 27 by parts; A&S 5.2.6-8, 5.2.34-35",
-    evaluate: |arguments| match *arguments {
+    evaluate: Evaluate::Scalar(|arguments| match *arguments {
         [x0, x1, ..] => Ok(sinc_squared_band(x0, x1)),
         // A call without its arguments has no value.
         _ => Ok(f64::NAN),
-    },
+    }),
 };
 
 /// Name of the WGSL function in every form.

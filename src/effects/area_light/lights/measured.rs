@@ -61,7 +61,7 @@ impl Points {
     pub(super) fn exact(&self, reference: &Reference) -> Result<Vec<f64>, ExhibitError> {
         (0..self.count())
             .into_par_iter()
-            .map(|row| (reference.evaluate)(&self.row(row)))
+            .map(|row| reference.value(&self.row(row)))
             .collect::<Result<_, _>>()
             .map_err(|error| ExhibitError(error.to_string()))
     }

@@ -84,7 +84,7 @@ pub(super) use hard_cases::HARD_CASES;
 pub(super) use laws::NOT_NEGATIVE;
 pub(super) use regions::REGIONS;
 
-use crate::effect::{DomainError, Reference};
+use crate::effect::{DomainError, Evaluate, Reference};
 
 /// Sphere lights, as registered.
 pub(super) const SPHERE: Reference = Reference {
@@ -95,10 +95,10 @@ pub(super) const SPHERE: Reference = Reference {
     accuracy: "relative error <= 1e-9, or error <= 1e-12 sqrt(pi)/ks 2 pi/(kw + pi), for half-angles from 1e-6 rad \
                (tests/lights.rs)",
     source: "velinov2018 eq. 3, 10 and 24; silhouette asin(r/p), both roots",
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [kw, ks, view_x, view_y, x, y, z, radius] = exactly(point)?;
         sphere_light(kw, ks, [view_x, view_y], [x, y, z], radius)
-    },
+    }),
 };
 
 /// Triangle lights, as registered.
@@ -110,11 +110,11 @@ pub(super) const TRIANGLE: Reference = Reference {
     accuracy: "relative error <= 1e-9, or error <= 1e-12 sqrt(pi)/ks 2 pi/(kw + pi), for extents from 1e-6 rad \
                (tests/lights.rs)",
     source: "velinov2018 eq. 3, 10 and 24; both roots",
-    evaluate: |point| {
+    evaluate: Evaluate::Scalar(|point| {
         let [kw, ks, view_x, view_y, rest @ ..]: [f64; 13] = exactly(point)?;
         let [a, b, c] = [0, 3, 6].map(|at| [rest[at], rest[at + 1], rest[at + 2]]);
         polygon_light(kw, ks, [view_x, view_y], &[a, b, c])
-    },
+    }),
 };
 
 /// The arguments, whose number the caller may have got wrong.
