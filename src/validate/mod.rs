@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod cheapest;
 pub mod cost;
 pub mod curves;
+pub mod draws;
 pub mod family;
 pub mod goals;
 pub mod laws;
