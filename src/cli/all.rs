@@ -46,7 +46,7 @@ struct State {
 /// Runs the stages and prints what they did and the verdicts.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     let project = context.project()?;
-    let path = project.reports().join(".state.json");
+    let path = project.report().join("state.json");
     let mut state: State = if arguments.force {
         State::default()
     } else {
@@ -95,8 +95,8 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         state.converged =
             fit::ending(&fitted) == Ending::Done && (state.converged || jobs.len() == files.len());
         let check = run.check(None, false)?;
-        let written = report::write(&project.reports(), &run, &check, context)?;
-        let folder = project.shown(&project.reports());
+        let written = report::write(&project.report(), &run, &check, context)?;
+        let folder = project.shown(&project.report());
         context.output.note(&format!("report: {} files in {folder}", written.files.len()));
         state.verdicts = check::text(&check);
         state.passed = check.passed();

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use anyhow::bail;
 use clap::Args;
 use serde::Serialize;
 
@@ -11,7 +12,7 @@ use super::output::{significant, table};
 use crate::effect::Yardstick;
 use crate::numeric::measured::Measured;
 use crate::numeric::statistics::largest;
-use crate::run::Studied;
+use crate::run::{Studied, write_costs};
 use crate::validate::cheapest::{Cheapest, cheapest};
 use crate::validate::cost::{Cost, Costs};
 use crate::validate::goals::{GoalVerdict, goals};
@@ -31,6 +32,9 @@ pub(super) struct Arguments {
     /// Effects [default: all]
     #[arg(value_name = "NAME")]
     effects: Vec<String>,
+    /// Record the costs on this device in reports/costs/, in a file named after the adapter
+    #[arg(long)]
+    record: bool,
 }
 
 /// One form: its error and its cost.
@@ -56,7 +60,19 @@ struct Bench {
 /// Times, and prints the frontier.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     let effects = context.effects(&arguments.effects)?;
-    let studied = context.run()?.studies(&effects, &|_| ())?;
+    let run = context.run()?;
+    let studied = run.studies(&effects, &|_| ())?;
+    if arguments.record {
+        if !arguments.effects.is_empty() {
+            bail!("--record is for every effect together: name none");
+        }
+        let Some(device) = run.device.value() else {
+            bail!("--record needs a device, and there is none");
+        };
+        let folder = run.project.reports().join("costs");
+        let path = write_costs(&folder, device.description(), &studied)?;
+        context.output.note(&format!("costs: {}", run.project.shown(&path)));
+    }
     let benches: Vec<Bench> = studied.iter().map(bench).collect();
     context.output.result(&benches, || benches.iter().map(text).collect::<Vec<_>>().join("\n"))?;
     Ok(Ending::Done)

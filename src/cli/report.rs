@@ -31,7 +31,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     let folder = match &arguments.output {
         Some(folder) => folder.clone(),
-        None => context.project()?.reports(),
+        None => context.project()?.report(),
     };
     let run = context.run()?;
     let check = run.check(None, false)?;

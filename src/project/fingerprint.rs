@@ -69,8 +69,12 @@ impl Fingerprints {
         if project.scene_folder().is_dir() {
             add_folder(&mut hash, &project.scene_folder())?;
         }
-        if project.reports().is_dir() {
-            add_folder(&mut hash, &project.reports())?;
+        match std::fs::read(project.accuracy()) {
+            Ok(bytes) => add(&mut hash, &bytes),
+            Err(_) => hash.update(b"absent"),
+        }
+        if project.report().is_dir() {
+            add_folder(&mut hash, &project.report())?;
         }
         Ok(hex(hash))
     }
@@ -80,7 +84,7 @@ impl Fingerprints {
 fn add_folder(hash: &mut Sha256, folder: &Path) -> Result<(), ProjectError> {
     for path in entries(folder)? {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if name.starts_with('.') {
+        if name == "state.json" {
             continue;
         }
         add(hash, name.as_bytes());

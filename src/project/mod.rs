@@ -8,7 +8,8 @@
 //! | `fits/gates.toml` | gates | a check refuses |
 //! | `data/measured` | measured tables | families and environments are refused by name |
 //! | `data/scenes/*.toml` | scenes | there are none |
-//! | `reports` | what is written | it is made |
+//! | `reports` | errors and recorded costs, to be committed | it is made |
+//! | `reports/latest` | the report, not to be committed | it is made |
 
 mod error;
 mod fingerprint;
@@ -87,9 +88,19 @@ impl Project {
         self.fits().join("gates.toml")
     }
 
-    /// Folder of reports.
+    /// Folder of what is committed about the project: errors, recorded costs, figures.
     pub fn reports(&self) -> PathBuf {
         self.root.join("reports")
+    }
+
+    /// The table of errors.
+    pub fn accuracy(&self) -> PathBuf {
+        self.reports().join("accuracy.tsv")
+    }
+
+    /// Folder of the full report, which is made anew and not committed.
+    pub fn report(&self) -> PathBuf {
+        self.reports().join("latest")
     }
 
     /// Folder of measured data.

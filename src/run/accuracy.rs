@@ -74,5 +74,9 @@ fn shown(value: f64) -> String {
 /// # Errors
 /// [`RunError::Table`] if it cannot be written.
 pub fn write_accuracy(path: &Path, studied: &[Studied]) -> Result<(), RunError> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)
+            .map_err(|source| RunError::Io { path: folder.display().to_string(), source })?;
+    }
     Ok(atomic_write(path, accuracy_table(studied).as_bytes())?)
 }

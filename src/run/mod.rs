@@ -2,12 +2,14 @@
 
 mod accuracy;
 mod checking;
+mod costs;
 mod fitting;
 mod reporting;
 
 use rayon::prelude::*;
 
 pub use accuracy::{accuracy_table, write_accuracy};
+pub use costs::{cost_table, write_costs};
 pub use fitting::{Job, fit};
 
 use crate::effect::{Candidates, Effect, Member};
@@ -91,6 +93,14 @@ pub enum RunError {
     /// The report could not be written.
     #[error(transparent)]
     Site(#[from] crate::report::html::SiteError),
+    /// A folder could not be made.
+    #[error("{path}: {source}")]
+    Io {
+        /// The folder.
+        path: String,
+        /// Why.
+        source: std::io::Error,
+    },
     /// A table could not be written.
     #[error(transparent)]
     Table(#[from] crate::table::TableError),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Run, RunError, Studied};
+use super::{Run, RunError, Studied, write_accuracy};
 use crate::document::{Page, Provenance, Verdict};
 use crate::gate::{Check, Judgement, SCENES, Verdict as Standing};
 use crate::render::surface::render_surface;
@@ -15,7 +15,8 @@ use crate::report::pages::{
 
 impl Run {
     /// Measures every effect, renders every scene and writes the report with the verdicts of `check`
-    /// into `folder`. `watch` is told what is measured.
+    /// into `folder`, and the table
+    /// of errors beside the project's own. `watch` is told what is measured.
     ///
     /// # Errors
     /// If anything of the project cannot be measured, rendered or written.
@@ -26,6 +27,9 @@ impl Run {
         watch: &(dyn Fn(&str) + Sync),
     ) -> Result<Written, RunError> {
         let studied = self.studies(self.project.registry().effects(), watch)?;
+        if folder == self.project.report() {
+            write_accuracy(&self.project.accuracy(), &studied)?;
+        }
         let (scenes, surfaces) = self.scenes(watch)?;
         watch("the report");
         let lines: Vec<GateLine> = check.gates.iter().map(line).collect();
