@@ -95,10 +95,7 @@ fn every_effect_folder_is_registered_gated_and_reported() {
     let registered: BTreeSet<&str> =
         striae::registry::Registry::builtin().effects().iter().map(|effect| effect.name).collect();
     let gates = read(&root().join("fits/gates.toml"));
-    let report: serde_json::Value =
-        serde_json::from_str(&read(&root().join("reports/report.json")))
-            .expect("report.json is JSON");
-    let pages = report.to_string();
+    let accuracy = read(&root().join("reports/accuracy.tsv"));
     for entry in fs::read_dir(root().join("src/effects")).expect("effects") {
         let path = entry.expect("a folder entry").path();
         if !path.is_dir() {
@@ -107,7 +104,8 @@ fn every_effect_folder_is_registered_gated_and_reported() {
         let name = path.file_name().and_then(|name| name.to_str()).expect("UTF-8 name").to_owned();
         assert!(registered.contains(name.as_str()), "effect `{name}` is not in the registry");
         assert!(gates.contains(&format!("\"{name}/")), "effect `{name}` has no gate");
-        assert!(pages.contains(&name), "effect `{name}` is not in the report");
+        let line = format!("\n{name}/");
+        assert!(accuracy.contains(&line), "effect `{name}` is not in reports/accuracy.tsv");
         assert!(root().join("fits").join(&name).is_dir(), "effect `{name}` has no fits");
     }
 }
