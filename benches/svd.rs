@@ -33,7 +33,7 @@ fn table() -> Grid {
         }
         channels.push(Channel { name: name.into(), unit: "1".into(), values });
     }
-    Grid { x: axis("h_x"), y: axis("h_y"), channels, origin: "lattice with noise".into() }
+    Grid { axes: vec![axis("h_x"), axis("h_y")], channels, origin: "lattice with noise".into() }
 }
 
 fn main() {

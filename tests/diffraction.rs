@@ -49,8 +49,8 @@ fn rgb(size: usize, extent: f64) -> TableShape {
 
 /// Σ S ΔA per channel.
 fn power(grid: &Grid) -> Vec<f64> {
-    let area = (grid.x.to - grid.x.from) * (grid.y.to - grid.y.from)
-        / (grid.x.count * grid.y.count) as f64;
+    let area = (grid.x().to - grid.x().from) * (grid.y().to - grid.y().from)
+        / (grid.x().count * grid.y().count) as f64;
     let sum = |values: &[f32]| values.iter().map(|v| f64::from(*v)).sum::<f64>() * area;
     grid.channels.iter().map(|c| sum(&c.values)).collect()
 }
@@ -120,7 +120,7 @@ fn a_mirror_is_white_under_every_light_and_sits_in_the_middle() {
         }
         for channel in &table.grid.channels {
             let most = channel.values.iter().copied().fold(0.0, f32::max);
-            assert_eq!(table.grid.at(&channel.name, 16, 16), Some(most));
+            assert_eq!(table.grid.at(&channel.name, &[16, 16]), Some(most));
         }
     }
 }
@@ -163,8 +163,8 @@ fn light_goes_where_facets_mirror_it() {
     for (i, value) in channel.values.iter().enumerate() {
         let value = f64::from(*value);
         sum += value;
-        moment[0] += value * table.grid.x.centre(i % 201);
-        moment[1] += value * table.grid.y.centre(i / 201);
+        moment[0] += value * table.grid.x().centre(i % 201);
+        moment[1] += value * table.grid.y().centre(i / 201);
     }
     let texel = 0.4 / 201.0;
     assert!((moment[0] / sum + 0.1).abs() < 0.5 * texel, "{}", moment[0] / sum);
@@ -308,7 +308,7 @@ fn every_simulated_surface_has_a_table() {
         ];
         let settings = settings(&texts).expect("settings");
         let table = simulated_table(&settings, &spectra()).expect("a table");
-        assert_eq!((table.x.count, table.y.count, table.channels.len()), (33, 33, 3));
+        assert_eq!((table.x().count, table.y().count, table.channels.len()), (33, 33, 3));
         assert!(power(&table).iter().all(|p| *p > 0.2 && *p < 1.001), "{surface}");
         assert_eq!(table, simulated_table(&settings, &spectra()).expect("a table"));
         assert!(simulated_heights(&settings).is_ok());
@@ -368,7 +368,7 @@ fn the_verb_writes_tables_and_a_picture_and_says_what_they_are() {
         .success()
         .stdout(contains("Shares of the reflected power").and(contains("white is")));
     let grid = Grid::read_exr(folder.path().join("disc.exr")).expect("a grid");
-    assert_eq!((grid.x.name.as_str(), grid.x.unit.as_str(), grid.x.count), ("h_x", "1", 33));
+    assert_eq!((grid.x().name.as_str(), grid.x().unit.as_str(), grid.x().count), ("h_x", "1", 33));
     assert_eq!(grid.channels[1].unit, "sr^-1");
     assert!(folder.path().join("disc.png").is_file());
     let spectral = ["--set", "channels=spectral", "-o", "disc.csv", "--json"];

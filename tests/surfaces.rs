@@ -34,7 +34,11 @@ fn table(count: usize) -> Grid {
             .collect(),
     };
     let channels = [("R", 0.4), ("G", 0.3), ("B", 0.2)].map(channel);
-    Grid { x: x.clone(), y: y.clone(), channels: channels.into(), origin: "three lobes".into() }
+    Grid {
+        axes: vec![x.clone(), y.clone()],
+        channels: channels.into(),
+        origin: "three lobes".into(),
+    }
 }
 
 /// Low harmonics: what the interpolation of a small map can follow.

@@ -156,7 +156,12 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
             alignment,
             ..NormOptions::default()
         };
-        Some(ConvolutionNorm::from_environments(&environments, &straight.x, &straight.y, &options)?)
+        Some(ConvolutionNorm::from_environments(
+            &environments,
+            straight.x(),
+            straight.y(),
+            &options,
+        )?)
     };
 
     let work = Work { table: &straight, alignment, decomposition: &decomposition, svd_ms, norm };
@@ -260,7 +265,7 @@ impl Work<'_> {
             }
             Method::Joint => shared(table, alignment, rank, stopping)?.low_rank,
             Method::Weighted => {
-                let weight = Weight::of_incidence(&table.x, &table.y, &alignment);
+                let weight = Weight::of_incidence(table.x(), table.y(), &alignment);
                 weighted(table, alignment, rank, &weight, stopping)?
             }
             Method::Convolution => {
@@ -344,7 +349,7 @@ fn along_lines(
     let (directions, half_width) = match count {
         1 => (vec![if found.brighter_is_x { x } else { y }], f64::INFINITY),
         _ => {
-            let own = half(&table.x).min(half(&table.y)) / 20.0;
+            let own = half(table.x()).min(half(table.y())) / 20.0;
             (vec![x, y], arguments.half_width.unwrap_or(own))
         }
     };

@@ -25,8 +25,8 @@ pub(super) fn picture(table: &Grid, path: &Path, exposure: Option<f64>) -> anyho
     let channel =
         |c: &&crate::table::Channel| Channel { name: c.name.clone(), values: c.values.clone() };
     let image = Image {
-        width: table.x.count,
-        height: table.y.count,
+        width: table.x().count,
+        height: table.y().count,
         channels: shown.iter().map(channel).collect(),
     };
     image.write_png(path, exposure)?;

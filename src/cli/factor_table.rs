@@ -66,7 +66,7 @@ impl Factored<'_> {
 
     /// For a reader.
     pub(super) fn text(&self) -> String {
-        let (nx, ny) = (self.table.x.count, self.table.y.count);
+        let (nx, ny) = (self.table.x().count, self.table.y().count);
         let mut text = format!("{nx} × {ny} texels, {}\n", self.folder.display());
         if let Some(found) = self.directions {
             let [x, y] = found.angles_rad.map(|angle| significant(angle.to_degrees(), 5));

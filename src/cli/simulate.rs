@@ -13,7 +13,7 @@ use crate::effect::exhibit::{ExhibitCell, ExhibitTable};
 use crate::effect::simulator::{Settings, Simulator};
 use crate::measured::spectra::Spectra;
 use crate::render::image::Image;
-use crate::table::{Column, Grid, Table};
+use crate::table::Grid;
 
 const MORE: &str = "\
 `striae simulate NAME --help-settings` lists the settings with their units and defaults.
@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     let Some(output) = &arguments.output else { bail!("--output is missing") };
     let write: fn(&Grid, &Path) -> anyhow::Result<()> = match extension(output).as_str() {
         "exr" => |grid, path| Ok(grid.write_exr(path)?),
-        "csv" => |grid, path| Ok(as_table(grid).write_csv(path, &[])?),
+        "csv" => |grid, path| Ok(grid.to_table().write_csv(path, &[])?),
         _ => bail!("{}: expected a name that ends in .exr or .csv", output.display()),
     };
     if let Some(png) = &arguments.png
@@ -150,22 +150,6 @@ fn as_text(shown: &ExhibitTable) -> String {
     table(&header, shown.rows.iter().map(|row| row.iter().map(cell).collect()).collect())
 }
 
-/// A row per texel: h_x, h_y, and the channels.
-fn as_table(grid: &Grid) -> Table {
-    let (x, y) = (grid.x.centres(), grid.y.centres());
-    let of_x = y.iter().flat_map(|_| x.iter().copied()).collect();
-    let of_y = y.iter().flat_map(|y| x.iter().map(move |_| *y)).collect();
-    let mut columns = vec![
-        Column::new(&grid.x.name, &grid.x.unit, of_x),
-        Column::new(&grid.y.name, &grid.y.unit, of_y),
-    ];
-    columns.extend(grid.channels.iter().map(|channel| {
-        let values = channel.values.iter().map(|v| f64::from(*v)).collect();
-        Column::new(&channel.name, &channel.unit, values)
-    }));
-    Table { columns, origin: grid.origin.clone() }
-}
-
 /// The table in false brightness, and the value that is white.
 fn picture(grid: &Grid) -> (Image, f64) {
     let channels: Vec<&[f32]> = grid.channels.iter().map(|c| c.values.as_slice()).collect();
@@ -176,7 +160,7 @@ fn picture(grid: &Grid) -> (Image, f64) {
             all => [all.iter().map(|c| at(c)).sum::<f64>() / all.len().max(1) as f64; 3],
         }
     };
-    let texels = grid.x.count * grid.y.count;
+    let texels = grid.texels();
     let brightness = |colour: [f64; 3]| colour.into_iter().fold(0.0, f64::max);
     let white = (0..texels).map(|i| brightness(texel(i))).fold(f64::MIN_POSITIVE, f64::max);
     let shown = |i: usize| {
@@ -187,5 +171,5 @@ fn picture(grid: &Grid) -> (Image, f64) {
         colour.map(|c| (c.max(0.0) / largest * grey.powf(2.2)) as f32)
     };
     let colours: Vec<[f32; 3]> = (0..texels).map(shown).collect();
-    (Image::rgb(grid.x.count, grid.y.count, &colours), white)
+    (Image::rgb(grid.x().count, grid.y().count, &colours), white)
 }

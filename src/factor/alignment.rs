@@ -2,13 +2,21 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::resampling::{Interpolation, sample};
-use super::{Alignment, LowRankError};
-use crate::table::{Channel, Grid};
+use super::LowRankError;
+use super::resampling::bicubic;
+use crate::table::{Axis, Channel, Grid, centres};
 
 /// Determinants below this part of the product of the rows' lengths are 0: the two directions are
 /// one.
 const PARALLEL: f64 = 1e-6;
+
+/// The affine map that straightens a table about h = 0 (toisoul2017 §4.2).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Alignment {
+    /// a = matrix · h, rows first. The columns of its inverse are the directions in h along which
+    /// the two axes of the factors run.
+    pub matrix: [[f64; 2]; 2],
+}
 
 /// How an alignment stands in a file.
 #[derive(Debug, Serialize, Deserialize)]
@@ -51,18 +59,23 @@ impl Alignment {
         self.matrix.map(|row| row[0] * h[0] + row[1] * h[1])
     }
 
-    /// The matrix from a to h; its columns are the directions in h of the two axes. Not finite for a
-    /// matrix that has no inverse, which nothing here makes or reads.
-    pub fn inverse(&self) -> [[f64; 2]; 2] {
+    /// The map from a to h. Not finite for a matrix that has no inverse, which nothing here makes or
+    /// reads.
+    pub fn inverse(&self) -> Self {
         let [[a, b], [c, d]] = self.matrix;
         let determinant = a * d - b * c;
-        [[d, -b], [-c, a]].map(|row| row.map(|v| v / determinant))
+        Self { matrix: [[d, -b], [-c, a]].map(|row| row.map(|v| v / determinant)) }
+    }
+
+    /// The directions in h of the x and the y axis, of the length that 1 on the axis has in h.
+    pub fn directions(&self) -> [[f64; 2]; 2] {
+        let [[a, b], [c, d]] = self.inverse().matrix;
+        [[a, c], [b, d]]
     }
 
     /// Angles in h of the directions of the x and the y axis, rad, in (−π, π].
     pub fn angles_rad(&self) -> [f64; 2] {
-        let [[a, b], [c, d]] = self.inverse();
-        [c.atan2(a), d.atan2(b)]
+        self.directions().map(|[x, y]| y.atan2(x))
     }
 
     /// As a TOML file.
@@ -95,32 +108,24 @@ impl Alignment {
 }
 
 /// A table in aligned coordinates: the value at a is the table's at h with a = `alignment` · h,
-/// bicubic ([`Interpolation`]). The axes keep their range and spacing; what the map moves beyond
+/// bicubic and held within the range of the texels around. The axes keep their range and spacing; what the map moves beyond
 /// them is cut, and 0 comes in where a point lies outside the table. The identity copies.
 ///
 /// # Errors
-/// As [`Grid::check`].
+/// As [`Grid::check_plane`].
 pub fn aligned(table: &Grid, alignment: &Alignment) -> Result<Grid, LowRankError> {
-    table.check()?;
+    table.check_plane()?;
     if *alignment == Alignment::identity() {
         return Ok(table.clone());
     }
     let inverse = alignment.inverse();
-    let (xs, ys) = (table.x.centres(), table.y.centres());
     let channels = table.channels.iter().map(|channel| {
-        let value = |ax: f64, ay: f64| {
-            let [hx, hy] = inverse.map(|row| row[0] * ax + row[1] * ay);
-            sample(table, channel, [hx, hy], Interpolation::Bicubic) as f32
-        };
-        Channel {
-            name: channel.name.clone(),
-            unit: channel.unit.clone(),
-            values: ys.iter().flat_map(|ay| xs.iter().map(move |ax| value(*ax, *ay))).collect(),
-        }
+        let value = |a: [f64; 2]| bicubic(table, channel, inverse.apply(a)) as f32;
+        let values = centres(table.x(), table.y()).map(value).collect();
+        Channel::new(&channel.name, &channel.unit, values)
     });
     Ok(Grid {
-        x: table.x.clone(),
-        y: table.y.clone(),
+        axes: table.axes.clone(),
         channels: channels.collect(),
         origin: format!("{}, aligned", table.origin),
     })
@@ -134,16 +139,12 @@ pub fn aligned(table: &Grid, alignment: &Alignment) -> Result<Grid, LowRankError
 /// As [`aligned`].
 pub fn resampling_error(table: &Grid, alignment: &Alignment) -> Result<f64, LowRankError> {
     let there = aligned(table, alignment)?;
-    let back = aligned(&there, &Alignment { matrix: alignment.inverse() })?;
-    let half = |axis: &crate::table::Axis| axis.from.abs().min(axis.to.abs());
-    let radius = half(&table.x).min(half(&table.y));
-    let (xs, ys) = (table.x.centres(), table.y.centres());
-    let inside = |hx: f64, hy: f64| {
-        let [ax, ay] = alignment.apply([hx, hy]);
-        hx.hypot(hy) <= radius && ax.hypot(ay) <= radius
-    };
-    let mask: Vec<bool> =
-        ys.iter().flat_map(|hy| xs.iter().map(move |hx| inside(*hx, *hy))).collect();
+    let back = aligned(&there, &alignment.inverse())?;
+    let half = |axis: &Axis| axis.from.abs().min(axis.to.abs());
+    let radius = half(table.x()).min(half(table.y()));
+    let on_disc = |[x, y]: [f64; 2]| x.hypot(y) <= radius;
+    let inside = |h: [f64; 2]| on_disc(h) && on_disc(alignment.apply(h));
+    let mask: Vec<bool> = centres(table.x(), table.y()).map(inside).collect();
     let (mut error, mut whole) = (0.0, 0.0);
     for (was, is) in table.channels.iter().zip(&back.channels) {
         for ((a, b), kept) in was.values.iter().zip(&is.values).zip(&mask) {

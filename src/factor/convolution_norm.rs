@@ -20,7 +20,7 @@ use rustfft::num_complex::Complex;
 use super::fourier::Transform;
 use super::illumination::{Patch, Radiance, Sampler, frame};
 use super::matrix::{inner, of_channel};
-use super::terms::Terms;
+use super::methods::require_size;
 use super::{Alignment, LowRank, LowRankError};
 use crate::measured::environment::Environment;
 use crate::table::{Axis, Grid};
@@ -196,37 +196,12 @@ impl ConvolutionNorm {
         factors: &LowRank,
     ) -> Result<Vec<f64>, LowRankError> {
         self.require(table)?;
-        let pairs = factors.matched(table)?;
-        Ok(pairs
-            .into_par_iter()
-            .map(|(channel, terms)| {
-                let s = of_channel(table, channel);
-                let whole = self.squared(&s);
-                if whole == 0.0 {
-                    0.0
-                } else {
-                    (self.squared(&difference(&s, &terms)) / whole).sqrt()
-                }
-            })
-            .collect())
+        factors.relative_errors_by(table, |d| self.squared(d))
     }
 
     pub(super) fn require(&self, table: &Grid) -> Result<(), LowRankError> {
-        if (table.x.count, table.y.count) == (self.nx, self.ny) {
-            return Ok(());
-        }
-        Err(LowRankError::Mismatch {
-            origin: table.origin.clone(),
-            what: format!(
-                "{} × {} texels, the norm was made for {} × {}",
-                table.x.count, table.y.count, self.nx, self.ny
-            ),
-        })
+        require_size(table, [self.nx, self.ny], "the norm was made for")
     }
-}
-
-fn difference(s: &Mat<f64>, terms: &Terms) -> Mat<f64> {
-    super::matrix::residual(s.as_ref(), terms.vertical.as_ref(), terms.horizontal.as_ref())
 }
 
 /// Cells of the table's spacing over twice its extent, or the unit disc.
@@ -308,8 +283,8 @@ pub fn seen_error(
     seed: u64,
 ) -> Result<f64, LowRankError> {
     let pairs = factors.matched(table)?;
-    let weight = super::Weight::of_incidence(&table.x, &table.y, &factors.alignment);
-    let patch = Patch::of_table(&table.x, &table.y, &factors.alignment);
+    let weight = super::Weight::of_incidence(table.x(), table.y(), &factors.alignment);
+    let patch = Patch::of_table(table.x(), table.y(), &factors.alignment);
     let mut squares = (0.0, 0.0);
     for (channel, terms) in pairs {
         let radiance = match channel.name.as_str() {
@@ -320,13 +295,13 @@ pub fn seen_error(
         };
         let sampler = Sampler::new(environment, radiance)?;
         let s = of_channel(table, channel);
-        let d = difference(&s, &terms);
+        let d = terms.residual(&s);
         let seen: Vec<(f64, f64)> = (0..orientations)
             .into_par_iter()
             .map(|index| {
                 let light = patch.radiance(sampler, &frame(seed, index));
                 let lit = |m: &Mat<f64>| -> f64 {
-                    let rows = light.chunks(table.x.count).enumerate();
+                    let rows = light.chunks(table.x().count).enumerate();
                     rows.map(|(i, row)| {
                         let texels = row.iter().enumerate();
                         texels.map(|(j, e)| weight.root(i, j) * m[(i, j)] * e).sum::<f64>()

@@ -19,7 +19,7 @@ use faer::{Mat, MatRef};
 use nalgebra::DVector;
 
 use super::convolution_norm::ConvolutionNorm;
-use super::matrix::{inner, residual, solve_towards, symmetric_eigen, thin_svd, times};
+use super::matrix::{inner, solve_towards, symmetric_eigen, thin_svd, times};
 use super::methods::{Stopping, per_channel};
 use super::terms::Terms;
 use super::{Alignment, LowRank, LowRankError};
@@ -52,7 +52,7 @@ impl Default for ConvolvedOptions {
 }
 
 /// How the error of one channel went down: ‖S − Ŝ‖_R/‖S‖_R, 0 for a channel that is 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ConvolvedReport {
     /// Of the singular value decomposition at the same rank.
     pub svd: f64,
@@ -95,19 +95,9 @@ fn fit(
     let seen = norm.convolved(s);
     let whole = inner(s.as_ref(), seen.as_ref());
     if whole <= 0.0 {
-        let nothing = ConvolvedReport {
-            svd: 0.0,
-            start: 0.0,
-            alternating: 0.0,
-            polished: 0.0,
-            sweeps: 0,
-            iterations: 0,
-        };
-        return Ok((svd, nothing));
+        return Ok((svd, ConvolvedReport::default()));
     }
-    let cost = |t: &Terms| {
-        norm.squared(&residual(s.as_ref(), t.vertical.as_ref(), t.horizontal.as_ref())) / whole
-    };
+    let cost = |t: &Terms| norm.squared(&t.residual(s)) / whole;
     let svd_cost = cost(&svd);
     let mut best = (svd_cost, svd.clone());
     let better = |best: &mut (f64, Terms), candidate: Terms| {
@@ -123,9 +113,8 @@ fn fit(
     let unknowns = s.nrows().max(s.ncols()) * svd.rank();
     if unknowns <= MOST_UNKNOWNS {
         let mut terms = best.1.clone();
-        let mut before = best.0;
         let turned = norm.lags().transpose().to_owned();
-        while sweeps < options.stopping.sweeps {
+        options.stopping.alternate(start, || {
             terms.vertical = side(norm.lags(), seen.as_ref(), &terms.horizontal, &terms.vertical);
             terms.horizontal = side(&turned, seen.transpose(), &terms.vertical, &terms.horizontal);
             sweeps += 1;
@@ -133,11 +122,8 @@ fn fit(
             if after < best.0 {
                 best = (after, terms.clone());
             }
-            if options.stopping.is_over(before, after) {
-                break;
-            }
-            before = after;
-        }
+            after
+        });
     }
     let alternating = best.0;
     let mut iterations = 0;
@@ -244,41 +230,31 @@ fn roots(a: &Mat<f64>, what: &str) -> Result<(Mat<f64>, Mat<f64>), LowRankError>
 /// Point, cost and gradient.
 type Evaluated = (DVector<f64>, f64, DVector<f64>);
 
-/// Both sides at once, as argmin sees them: vertical, then horizontal, column by column.
+/// Both sides at once, as argmin sees them: their [`Terms::entries`].
 struct Both<'a> {
     norm: &'a ConvolutionNorm,
     s: &'a Mat<f64>,
     whole: f64,
-    rank: usize,
+    size: [usize; 3],
     last: RefCell<Option<Evaluated>>,
 }
 
 impl Both<'_> {
-    fn terms(&self, z: &DVector<f64>) -> Terms {
-        let (ny, nx) = self.s.shape();
-        let at = |index: usize| z.get(index).copied().unwrap_or(0.0);
-        Terms {
-            vertical: Mat::from_fn(ny, self.rank, |i, m| at(m * ny + i)),
-            horizontal: Mat::from_fn(nx, self.rank, |j, m| at((self.rank * ny) + m * nx + j)),
-        }
-    }
-
     fn evaluated(&self, z: &DVector<f64>) -> (f64, DVector<f64>) {
         if let Some((at, cost, gradient)) = self.last.borrow().as_ref()
             && at == z
         {
             return (*cost, gradient.clone());
         }
-        let t = self.terms(z);
-        let d = residual(self.s.as_ref(), t.vertical.as_ref(), t.horizontal.as_ref());
+        let t = Terms::of_entries(z.as_slice(), self.size);
+        let d = t.residual(self.s);
         let seen = self.norm.convolved(&d);
         let cost = inner(d.as_ref(), seen.as_ref()) / self.whole;
-        let vertical = times(seen.as_ref(), t.horizontal.as_ref());
-        let horizontal = times(seen.transpose(), t.vertical.as_ref());
-        let both = vertical.col_iter().chain(horizontal.col_iter());
-        let slopes = both.flat_map(|column| column.iter().copied().collect::<Vec<_>>());
-        let gradient =
-            DVector::from_iterator(z.len(), slopes.map(|slope| -2.0 * slope / self.whole));
+        let slopes = Terms {
+            vertical: times(seen.as_ref(), t.horizontal.as_ref()),
+            horizontal: times(seen.transpose(), t.vertical.as_ref()),
+        };
+        let gradient = DVector::from(slopes.entries()).map(|slope| -2.0 * slope / self.whole);
         *self.last.borrow_mut() = Some((z.clone(), cost, gradient.clone()));
         (cost, gradient)
     }
@@ -310,28 +286,16 @@ fn polish(
     start: &Terms,
     most: u64,
 ) -> (Terms, u64) {
-    let both = |t: &Terms| -> DVector<f64> {
-        let columns = t.vertical.col_iter().chain(t.horizontal.col_iter());
-        let values: Vec<f64> =
-            columns.flat_map(|c| c.iter().copied().collect::<Vec<_>>()).collect();
-        DVector::from_vec(values)
-    };
-    let z = both(start);
+    let z = DVector::from(start.entries());
     // In units of the largest entry, so that a first step along the gradient has a sensible length.
     let unit = z.amax();
     if unit == 0.0 {
         return (start.clone(), 0);
     }
     let scaled = Mat::from_fn(s.nrows(), s.ncols(), |i, j| s[(i, j)] / (unit * unit));
-    let problem = Both {
-        norm,
-        s: &scaled,
-        whole: whole / unit.powi(4),
-        rank: start.rank(),
-        last: RefCell::new(None),
-    };
-    let rank = start.rank();
-    let (ny, nx) = s.shape();
+    let size = [s.nrows(), s.ncols(), start.rank()];
+    let problem =
+        Both { norm, s: &scaled, whole: whole / unit.powi(4), size, last: RefCell::new(None) };
     let solver = LBFGS::new(MoreThuenteLineSearch::new(), MEMORY)
         .with_tolerance_grad(0.0)
         .and_then(|solver| solver.with_tolerance_cost(1e-12));
@@ -345,10 +309,5 @@ fn polish(
     let Ok(result) = run else { return (start.clone(), 0) };
     let iterations = result.state().get_iter();
     let Some(z) = result.state().get_best_param() else { return (start.clone(), iterations) };
-    let at = |index: usize| unit * z.get(index).copied().unwrap_or(0.0);
-    let terms = Terms {
-        vertical: Mat::from_fn(ny, rank, |i, m| at(m * ny + i)),
-        horizontal: Mat::from_fn(nx, rank, |j, m| at(rank * ny + m * nx + j)),
-    };
-    (terms, iterations)
+    (Terms::of_entries((z * unit).as_slice(), size), iterations)
 }

@@ -52,7 +52,7 @@ impl Decomposition {
     /// number of threads. Repeated values and signs as [`super`] says.
     ///
     /// # Errors
-    /// As [`Grid::check`]; [`LowRankError::NotConverged`].
+    /// As [`Grid::check_plane`]; [`LowRankError::NotConverged`].
     pub fn of(table: &Grid) -> Result<Self, LowRankError> {
         Self::of_aligned(table, Alignment::identity())
     }
@@ -63,7 +63,7 @@ impl Decomposition {
     /// # Errors
     /// As [`Decomposition::of`].
     pub fn of_aligned(table: &Grid, alignment: Alignment) -> Result<Self, LowRankError> {
-        table.check()?;
+        table.check_plane()?;
         let channels = table
             .channels
             .par_iter()
@@ -74,7 +74,7 @@ impl Decomposition {
                 Ok((Spectrum::of(&channel.name, &svd.values), svd))
             })
             .collect::<Result<_, LowRankError>>()?;
-        let (x, y) = (table.x.clone(), table.y.clone());
+        let (x, y) = (table.x().clone(), table.y().clone());
         Ok(Self { x, y, origin: table.origin.clone(), alignment, channels })
     }
 

@@ -1,7 +1,19 @@
 //! Kernels along lines: the table integrated across each (toisoul2017 table 2, "1D" and "Sum").
 
-use super::{DirectionalKernel, LowRankError};
-use crate::table::{Axis, Channel, Grid};
+use super::LowRankError;
+use crate::table::{Axis, Channel, Grid, centres};
+
+/// A kernel along a line through h = 0, integrated across it: K(h) ≈ line(h·d) δ(h·e), e ⟂ d.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DirectionalKernel {
+    /// Unit vector d in h.
+    pub direction: [f64; 2],
+    /// Axis along the line, in the length of h.
+    pub axis: Axis,
+    /// Name and one value per texel of `axis`, per channel of the table: the table integrated
+    /// across the line, so that Σ line · Δs is the energy of the line.
+    pub channels: Vec<(String, Vec<f64>)>,
+}
 
 /// Kernels along lines and what they leave out.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,14 +34,14 @@ pub struct Directional {
 /// the table's two and reaches as far as the table does along the line, evenly about 0.
 ///
 /// # Errors
-/// As [`Grid::check`]; [`LowRankError::Setting`] without directions, for one of length 0 or not
+/// As [`Grid::check_plane`]; [`LowRankError::Setting`] without directions, for one of length 0 or not
 /// finite, or for a half width that is not above 0.
 pub fn directional(
     table: &Grid,
     directions: &[[f64; 2]],
     half_width: f64,
 ) -> Result<Directional, LowRankError> {
-    table.check()?;
+    table.check_plane()?;
     let setting = |name, expected: &str, got: String| LowRankError::Setting {
         name,
         expected: expected.into(),
@@ -42,11 +54,8 @@ pub fn directional(
     for [x, y] in directions {
         let length = x.hypot(*y);
         if !(length.is_finite() && length > 0.0) {
-            return Err(setting(
-                "direction",
-                "a finite vector that is not 0",
-                format!("({x}, {y})"),
-            ));
+            let expected = "a finite vector that is not 0";
+            return Err(setting("direction", expected, format!("({x}, {y})")));
         }
         units.push([x / length, y / length]);
     }
@@ -54,15 +63,13 @@ pub fn directional(
         return Err(setting("directions", "at least one", "none".into()));
     }
     let axes: Vec<Axis> = units.iter().map(|d| axis_along(table, *d)).collect();
-    let area = spacing(&table.x) * spacing(&table.y);
-    let (xs, ys) = (table.x.centres(), table.y.centres());
+    let area = spacing(table.x()) * spacing(table.y());
     let mut lost = Vec::with_capacity(table.channels.len());
     let mut lines: Vec<Vec<(String, Vec<f64>)>> = vec![Vec::new(); units.len()];
     for channel in &table.channels {
         let mut profiles: Vec<Vec<f64>> = axes.iter().map(|axis| vec![0.0; axis.count]).collect();
         let (mut whole, mut outside) = (0.0, 0.0);
-        let points = ys.iter().flat_map(|y| xs.iter().map(move |x| [*x, *y]));
-        for (h, value) in points.zip(&channel.values) {
+        for (h, value) in centres(table.x(), table.y()).zip(&channel.values) {
             let energy = f64::from(*value) * area;
             whole += energy;
             let on = |d: &[f64; 2]| (h[1] * d[0] - h[0] * d[1]).abs() <= half_width;
@@ -94,23 +101,22 @@ pub fn directional(
 }
 
 fn spacing(axis: &Axis) -> f64 {
-    (axis.to - axis.from).abs() / axis.count as f64
+    axis.step().abs()
 }
 
 /// As far as the table reaches along d, and a texel more, so that both texels of every deposit exist.
 fn axis_along(table: &Grid, d: [f64; 2]) -> Axis {
     let furthest = |axis: &Axis| axis.from.abs().max(axis.to.abs());
-    let reach = furthest(&table.x) * d[0].abs() + furthest(&table.y) * d[1].abs();
-    let step = spacing(&table.x).min(spacing(&table.y));
+    let reach = furthest(table.x()) * d[0].abs() + furthest(table.y()) * d[1].abs();
+    let step = spacing(table.x()).min(spacing(table.y()));
     let half = (reach / step).ceil() as usize + 1;
     let edge = half as f64 * step;
-    Axis { name: "s".into(), unit: table.x.unit.clone(), from: -edge, to: edge, count: 2 * half }
+    Axis::new("s", &table.x().unit, [-edge, edge], 2 * half)
 }
 
 fn deposit(axis: &Axis, profile: &mut [f64], along: f64, amount: f64) {
-    let at = axis.texel(along).clamp(0.0, (axis.count - 1) as f64);
-    let (low, part) = (at.floor() as usize, at.fract());
-    for (index, share) in [(low, 1.0 - part), (low + 1, part)] {
+    let Some((low, high, part)) = axis.between(along) else { return };
+    for (index, share) in [(low, 1.0 - part), (high, part)] {
         if let Some(slot) = profile.get_mut(index) {
             *slot += share * amount;
         }
@@ -147,12 +153,9 @@ pub fn drawn(kernels: &[DirectionalKernel], x: &Axis, y: &Axis) -> Result<Grid, 
             }
         }
         let values = values.iter().map(|v| *v as f32).collect();
-        channels.push(Channel { name: name.clone(), unit: "1".into(), values });
+        channels.push(Channel::new(name, "1", values));
     }
-    let origin = format!("{} lines", kernels.len());
-    let grid = Grid { x: x.clone(), y: y.clone(), channels, origin };
-    grid.check()?;
-    Ok(grid)
+    Ok(Grid::new([x.clone(), y.clone()], channels, format!("{} lines", kernels.len()))?)
 }
 
 fn spread(values: &mut [f64], x: &Axis, y: &Axis, h: [f64; 2], amount: f64) {

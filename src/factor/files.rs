@@ -20,11 +20,14 @@ impl LowRank {
     /// As [`Grid::write_exr`] and [`Table::write_csv`]; [`LowRankError::Mismatch`] for factors whose
     /// channels have different numbers of terms.
     pub fn write(&self, folder: &Path) -> Result<(), LowRankError> {
-        for (name, axis) in [(VERTICAL, &self.y), (HORIZONTAL, &self.x)] {
-            let side = self.side(name, axis)?;
-            side.write_exr(folder.join(format!("{name}.exr")))?;
+        for (name, axis, lists) in [
+            (VERTICAL, &self.y, (|c| &c.vertical) as fn(&ChannelFactors) -> &Vec<Vec<f64>>),
+            (HORIZONTAL, &self.x, |c| &c.horizontal),
+        ] {
+            let lists: Vec<_> = self.channels.iter().map(|c| (c.name.as_str(), lists(c))).collect();
+            side(name, axis, &lists)?.write_exr(folder.join(format!("{name}.exr")))?;
             let notes = [format!("{name} factors, one column per channel and term, largest first")];
-            self.columns(name, axis).write_csv(folder.join(format!("{name}.csv")), &notes)?;
+            columns(name, axis, &lists).write_csv(folder.join(format!("{name}.csv")), &notes)?;
         }
         let text = self.alignment.to_toml()?;
         store::atomic_write(&folder.join(ALIGNMENT), text.as_bytes())?;
@@ -45,8 +48,8 @@ impl LowRank {
         let alignment = Alignment::from_toml(&origin, store::text(&origin, &text)?)?;
         let fault =
             |what: String| LowRankError::Mismatch { origin: folder.display().to_string(), what };
-        if vertical.y.count != horizontal.y.count {
-            let (v, h) = (vertical.y.count, horizontal.y.count);
+        if vertical.y().count != horizontal.y().count {
+            let (v, h) = (vertical.y().count, horizontal.y().count);
             return Err(fault(format!("{v} vertical terms and {h} horizontal ones")));
         }
         if vertical.channels.len() != horizontal.channels.len() {
@@ -56,11 +59,8 @@ impl LowRank {
             )));
         }
         let lists = |channel: &Channel, length: usize| -> Vec<Vec<f64>> {
-            channel
-                .values
-                .chunks(length)
-                .map(|c| c.iter().map(|v| f64::from(*v)).collect())
-                .collect()
+            let wide = |list: &[f32]| list.iter().map(|v| f64::from(*v)).collect();
+            channel.values.chunks(length).map(wide).collect()
         };
         let mut channels = Vec::with_capacity(vertical.channels.len());
         for channel in &vertical.channels {
@@ -69,54 +69,42 @@ impl LowRank {
             })?;
             channels.push(ChannelFactors {
                 name: channel.name.clone(),
-                vertical: lists(channel, vertical.x.count),
-                horizontal: lists(other, horizontal.x.count),
+                vertical: lists(channel, vertical.x().count),
+                horizontal: lists(other, horizontal.x().count),
             });
         }
-        Ok(Self { x: horizontal.x, y: vertical.x, channels, alignment })
+        let (x, y) = (horizontal.x().clone(), vertical.x().clone());
+        Ok(Self { x, y, channels, alignment })
     }
+}
 
-    /// One side as a table: its axis along x, the term, from 1, along y.
-    fn side(&self, name: &str, axis: &Axis) -> Result<Grid, LowRankError> {
-        let rank = self.rank();
-        let lists = |factors: &ChannelFactors| match name {
-            VERTICAL => factors.vertical.clone(),
-            _ => factors.horizontal.clone(),
-        };
-        let mut channels = Vec::with_capacity(self.channels.len());
-        for factors in &self.channels {
-            let lists = lists(factors);
-            if lists.len() != rank || lists.iter().any(|list| list.len() != axis.count) {
-                return Err(LowRankError::Mismatch {
-                    origin: format!("{name} factors of channel {:?}", factors.name),
-                    what: format!("expected {rank} terms of {} values", axis.count),
-                });
-            }
-            channels.push(Channel {
-                name: factors.name.clone(),
-                unit: "1".into(),
-                values: lists.iter().flatten().map(|v| *v as f32).collect(),
+/// The terms of every channel on one side.
+type Lists<'a> = [(&'a str, &'a Vec<Vec<f64>>)];
+
+/// One side as a table: its axis along x, the term, from 1, along y.
+fn side(name: &str, axis: &Axis, lists: &Lists<'_>) -> Result<Grid, LowRankError> {
+    let rank = lists.iter().map(|(_, terms)| terms.len()).max().unwrap_or(0);
+    let mut channels = Vec::with_capacity(lists.len());
+    for (channel, terms) in lists {
+        if terms.len() != rank || terms.iter().any(|list| list.len() != axis.count) {
+            return Err(LowRankError::Mismatch {
+                origin: format!("{name} factors of channel {channel:?}"),
+                what: format!("expected {rank} terms of {} values", axis.count),
             });
         }
-        let term = Axis {
-            name: "term".into(),
-            unit: "1".into(),
-            from: 0.5,
-            to: rank as f64 + 0.5,
-            count: rank,
-        };
-        Ok(Grid { x: axis.clone(), y: term, channels, origin: format!("{name} factors") })
+        let values = terms.iter().flatten().map(|v| *v as f32).collect();
+        channels.push(Channel::new(*channel, "1", values));
     }
+    let term = Axis::new("term", "1", [0.5, rank as f64 + 0.5], rank);
+    Ok(Grid { axes: vec![axis.clone(), term], channels, origin: format!("{name} factors") })
+}
 
-    fn columns(&self, name: &str, axis: &Axis) -> Table {
-        let mut columns = vec![Column::new(axis.name.clone(), axis.unit.clone(), axis.centres())];
-        for factors in &self.channels {
-            let lists = if name == VERTICAL { &factors.vertical } else { &factors.horizontal };
-            for (m, list) in lists.iter().enumerate() {
-                let name = format!("{}_{}", factors.name, m + 1);
-                columns.push(Column::new(name, "1", list.clone()));
-            }
-        }
-        Table { columns, origin: format!("{name} factors") }
+fn columns(name: &str, axis: &Axis, lists: &Lists<'_>) -> Table {
+    let mut columns = vec![Column::new(&axis.name, &axis.unit, axis.centres())];
+    for (channel, terms) in lists {
+        let numbered = (1..).zip(*terms);
+        columns
+            .extend(numbered.map(|(m, l)| Column::new(format!("{channel}_{m}"), "1", l.clone())));
     }
+    Table { columns, origin: format!("{name} factors") }
 }

@@ -7,6 +7,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::{Alignment, LowRankError};
 use crate::measured::environment::Environment;
+use crate::table::Axis;
 
 /// What of the radiance counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -121,7 +122,7 @@ pub(super) struct Patch {
     /// Cells along x and y.
     pub(super) count: [usize; 2],
     /// From aligned coordinates to h.
-    pub(super) inverse: [[f64; 2]; 2],
+    pub(super) inverse: Alignment,
 }
 
 impl Patch {
@@ -134,8 +135,8 @@ impl Patch {
         let fine = (widest / sampler.spacing_rad()).ceil().clamp(1.0, SUBSAMPLES);
         let offsets: Vec<f64> = (0..fine as usize).map(|k| (k as f64 + 0.5) / fine - 0.5).collect();
         let [t, b, n] = frame;
-        let light = |ax: f64, ay: f64| {
-            let [u, v] = self.inverse.map(|row| row[0] * ax + row[1] * ay);
+        let light = |a: [f64; 2]| {
+            let [u, v] = self.inverse.apply(a);
             let cosine_squared = 1.0 - u * u - v * v;
             if cosine_squared < 0.0 {
                 return 0.0;
@@ -152,7 +153,7 @@ impl Patch {
                     for ox in &offsets {
                         let ax = self.from[0] + (ix as f64 + ox) * self.step[0];
                         let ay = self.from[1] + (iy as f64 + oy) * self.step[1];
-                        sum += light(ax, ay);
+                        sum += light([ax, ay]);
                     }
                 }
                 values.push(sum / (fine * fine));
@@ -162,11 +163,7 @@ impl Patch {
     }
 
     /// The cells of a table with these axes.
-    pub(super) fn of_table(
-        x: &crate::table::Axis,
-        y: &crate::table::Axis,
-        alignment: &Alignment,
-    ) -> Self {
+    pub(super) fn of_table(x: &Axis, y: &Axis, alignment: &Alignment) -> Self {
         Self {
             from: [x.centre(0), y.centre(0)],
             step: [x.centre(1) - x.centre(0), y.centre(1) - y.centre(0)],

@@ -20,9 +20,9 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::matrix::{norm_squared, times};
-use super::resampling::{Interpolation, sample};
+use super::resampling::bicubic;
 use super::{Alignment, LowRankError};
-use crate::table::{Axis, Channel, Grid};
+use crate::table::{Axis, Channel, Edge, Grid, centres};
 
 /// How the directions are searched.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,14 +77,14 @@ const POWER_STEPS: usize = 40;
 /// Finds the main directions of a table about h = 0.
 ///
 /// # Errors
-/// As [`Grid::check`] and [`Grid::require`]; [`LowRankError::Setting`] unless the least angle is in
+/// As [`Grid::check_plane`] and [`Grid::require`]; [`LowRankError::Setting`] unless the least angle is in
 /// [1°, 90°] and h = 0 on the table with something of it outside the central radius;
 /// [`LowRankError::AllZero`] if the channel is 0.
 pub fn main_directions(
     table: &Grid,
     options: &SearchOptions,
 ) -> Result<MainDirections, LowRankError> {
-    table.check()?;
+    table.check_plane()?;
     let least = options.minimum_angle_rad;
     if !(PI / 180.0 * 0.999..=FRAC_PI_2).contains(&least) {
         return Err(LowRankError::Setting {
@@ -130,7 +130,7 @@ fn intensity(table: &Grid, name: Option<&str>) -> Result<(Grid, Channel), LowRan
         (Some(name), _) => table.require(name)?.values.clone(),
         (None, Some(green)) => green.values.clone(),
         (None, None) => {
-            let mut sum = vec![0.0f32; table.x.count * table.y.count];
+            let mut sum = vec![0.0f32; table.texels()];
             for channel in &table.channels {
                 for (slot, value) in sum.iter_mut().zip(&channel.values) {
                     *slot += value;
@@ -139,42 +139,43 @@ fn intensity(table: &Grid, name: Option<&str>) -> Result<(Grid, Channel), LowRan
             sum
         }
     };
-    let plane = Grid {
-        x: table.x.clone(),
-        y: table.y.clone(),
-        channels: Vec::new(),
-        origin: table.origin.clone(),
-    };
-    Ok((plane, Channel { name: "intensity".into(), unit: "1".into(), values }))
+    let (axes, origin) = (table.axes.clone(), table.origin.clone());
+    let plane = Grid { axes, channels: Vec::new(), origin };
+    Ok((plane, Channel::new("intensity", "1", values)))
 }
 
 /// Half the smaller side about h = 0.
-pub(super) fn radius(table: &Grid) -> Result<f64, LowRankError> {
+fn radius(table: &Grid) -> Result<f64, LowRankError> {
     let half = |axis: &Axis| {
         let (low, high) = (axis.from.min(axis.to), axis.from.max(axis.to));
         (-low).min(high)
     };
-    let radius = half(&table.x).min(half(&table.y));
+    let radius = half(table.x()).min(half(table.y()));
     if radius > 0.0 {
         return Ok(radius);
     }
     Err(LowRankError::Setting {
         name: "axes",
         expected: "h = 0 inside the table".into(),
-        got: format!("{} to {}, {} to {}", table.x.from, table.x.to, table.y.from, table.y.to),
+        got: format!(
+            "{} to {}, {} to {}",
+            table.x().from,
+            table.x().to,
+            table.y().from,
+            table.y().to
+        ),
     })
 }
 
 /// Σ along both halves of the line at `angle`, in steps of half a texel.
 fn line_sum(plane: &Grid, channel: &Channel, angle: f64, central: f64, radius: f64) -> f64 {
-    let spacing = |axis: &Axis| (axis.to - axis.from).abs() / axis.count as f64;
-    let step = 0.5 * spacing(&plane.x).min(spacing(&plane.y));
+    let step = 0.5 * plane.x().step().abs().min(plane.y().step().abs());
     let (sin, cos) = angle.sin_cos();
     let count = ((radius - central) / step).floor() as usize;
     (0..=count)
         .map(|k| {
             let r = central + k as f64 * step;
-            let at = |r: f64| sample(plane, channel, [r * cos, r * sin], Interpolation::Bilinear);
+            let at = |r: f64| plane.sample(channel, &[r * cos, r * sin], Edge::Held);
             at(r) + at(-r)
         })
         .sum()
@@ -209,14 +210,11 @@ fn least_turned([a, b]: [f64; 2]) -> [f64; 2] {
 fn beyond_rank_one(plane: &Grid, channel: &Channel, [x, y]: [f64; 2]) -> f64 {
     let Ok(alignment) = Alignment::of_directions(x, y) else { return 1.0 };
     let inverse = alignment.inverse();
-    let (xs, ys) = (plane.x.centres(), plane.y.centres());
+    let (xs, ys) = (plane.x().centres(), plane.y().centres());
     let rows: Vec<Vec<f64>> = ys
         .par_iter()
         .map(|ay| {
-            let at = |ax: &f64| {
-                let h = inverse.map(|row| row[0] * ax + row[1] * ay);
-                sample(plane, channel, h, Interpolation::Bicubic)
-            };
+            let at = |ax: &f64| bicubic(plane, channel, inverse.apply([*ax, *ay]));
             xs.iter().map(at).collect()
         })
         .collect();
@@ -248,16 +246,14 @@ struct Orders {
 
 impl Orders {
     fn of(plane: &Grid, channel: &Channel, central: f64, radius: f64) -> Self {
-        let spacing = |axis: &Axis| (axis.to - axis.from).abs() / axis.count as f64;
-        let (xs, ys) = (plane.x.centres(), plane.y.centres());
-        let points = ys.iter().flat_map(|y| xs.iter().map(move |x| [*x, *y]));
-        let places: Vec<([f64; 2], f64)> = points
+        let places: Vec<([f64; 2], f64)> = centres(plane.x(), plane.y())
             .zip(&channel.values)
             .map(|(h, value)| (h, f64::from(*value).powi(2)))
             .filter(|(h, _)| (central..=radius).contains(&h[0].hypot(h[1])))
             .collect();
         let whole = places.iter().map(|(_, energy)| energy).sum();
-        Self { places, width: WIDTH_TEXELS * spacing(&plane.x).max(spacing(&plane.y)), whole }
+        let texel = plane.x().step().abs().max(plane.y().step().abs());
+        Self { places, width: WIDTH_TEXELS * texel, whole }
     }
 
     /// Part of Σ S² about the line at `angle`.

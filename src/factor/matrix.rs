@@ -15,10 +15,10 @@ use crate::table::{Channel, Grid};
 
 /// One channel of a table, ny × nx.
 pub(super) fn of_channel(table: &Grid, channel: &Channel) -> Mat<f64> {
-    let nx = table.x.count;
+    let nx = table.x().count;
     let value =
         |iy: usize, ix: usize| channel.values.get(iy * nx + ix).map_or(0.0, |v| f64::from(*v));
-    Mat::from_fn(table.y.count, nx, value)
+    Mat::from_fn(table.y().count, nx, value)
 }
 
 /// The texels of a matrix, row by row.
@@ -44,22 +44,6 @@ pub(super) fn norm_squared(a: MatRef<'_, f64>) -> f64 {
 /// ⟨a, b⟩, element by element.
 pub(super) fn inner(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> f64 {
     (0..a.ncols()).map(|j| (0..a.nrows()).map(|i| a[(i, j)] * b[(i, j)]).sum::<f64>()).sum()
-}
-
-/// a − v hᵀ.
-pub(super) fn residual(a: MatRef<'_, f64>, v: MatRef<'_, f64>, h: MatRef<'_, f64>) -> Mat<f64> {
-    let mut rest = a.to_owned();
-    matmul(rest.as_mut(), Accum::Add, v, h.transpose(), -1.0, Par::Seq);
-    rest
-}
-
-/// ‖a − v hᵀ‖/‖a‖; 0 for a = 0, which every method gives exactly.
-pub(super) fn relative_error(a: MatRef<'_, f64>, v: MatRef<'_, f64>, h: MatRef<'_, f64>) -> f64 {
-    let whole = norm_squared(a);
-    if whole == 0.0 {
-        return 0.0;
-    }
-    (norm_squared(residual(a, v, h).as_ref()) / whole).sqrt()
 }
 
 /// a = left · diag(values) · rightᵀ, values descending.

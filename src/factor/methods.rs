@@ -26,9 +26,34 @@ impl Default for Stopping {
 
 impl Stopping {
     /// Whether going from the squared error `before` to `after` was the last sweep worth making.
-    pub(super) fn is_over(&self, before: f64, after: f64) -> bool {
+    fn is_over(&self, before: f64, after: f64) -> bool {
         after <= 0.0 || (before - after) <= 2.0 * self.decrease * before
     }
+
+    /// Sweeps, each from the squared error that the one before returned, until it is over.
+    pub(super) fn alternate(&self, mut before: f64, mut sweep: impl FnMut() -> f64) {
+        for _ in 0..self.sweeps {
+            let after = sweep();
+            if self.is_over(before, after) {
+                break;
+            }
+            before = after;
+        }
+    }
+}
+
+/// Refuses a table of another size than `[nx, ny]`, which `what` of the error is about.
+pub(super) fn require_size(
+    table: &Grid,
+    [nx, ny]: [usize; 2],
+    what: &str,
+) -> Result<(), LowRankError> {
+    let (x, y) = (table.x().count, table.y().count);
+    if (x, y) == (nx, ny) {
+        return Ok(());
+    }
+    let what = format!("{x} × {y} texels, {what} {nx} × {ny}");
+    Err(LowRankError::Mismatch { origin: table.origin.clone(), what })
 }
 
 /// Factorises every channel from its singular value decomposition, one channel beside the other.
@@ -55,5 +80,5 @@ pub(super) fn per_channel<R: Send>(
     }
     let channels =
         table.channels.iter().zip(&terms).map(|(channel, t)| t.named(&channel.name)).collect();
-    Ok((LowRank { x: table.x.clone(), y: table.y.clone(), channels, alignment }, reports))
+    Ok((LowRank { x: table.x().clone(), y: table.y().clone(), channels, alignment }, reports))
 }

@@ -8,7 +8,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::matrix::{norm_squared, residual, times};
+use super::matrix::{norm_squared, times};
 use super::methods::{Stopping, per_channel};
 use super::terms::Terms;
 use super::{Alignment, LowRank, LowRankError};
@@ -17,7 +17,7 @@ use crate::table::Grid;
 /// Fits factors of rank `rank` that are not negative to every channel.
 ///
 /// # Errors
-/// As [`Grid::check`]; [`LowRankError::Negative`] for a table with a negative value;
+/// As [`Grid::check_plane`]; [`LowRankError::Negative`] for a table with a negative value;
 /// [`LowRankError::Rank`]; [`LowRankError::NotConverged`].
 pub fn nonnegative(
     table: &Grid,
@@ -25,33 +25,26 @@ pub fn nonnegative(
     rank: usize,
     stopping: Stopping,
 ) -> Result<LowRank, LowRankError> {
-    table.check()?;
+    table.check_plane()?;
     for channel in &table.channels {
-        if let Some(at) = channel.values.iter().position(|v| *v < 0.0) {
+        if let Some((at, value)) = channel.values.iter().enumerate().find(|(_, v)| **v < 0.0) {
             return Err(LowRankError::Negative {
                 origin: table.origin.clone(),
                 channel: channel.name.clone(),
-                ix: at % table.x.count,
-                iy: at / table.x.count,
-                value: channel.values.get(at).copied().unwrap_or(f32::NAN),
+                ix: at % table.x().count,
+                iy: at / table.x().count,
+                value: *value,
             });
         }
     }
     let fit = |_: usize, s: &Mat<f64>, start: Terms| {
         let mut terms = positive_parts(&start);
-        let cost = |t: &Terms| {
-            norm_squared(residual(s.as_ref(), t.vertical.as_ref(), t.horizontal.as_ref()).as_ref())
-        };
-        let mut before = cost(&terms);
-        for _ in 0..stopping.sweeps {
+        let cost = |t: &Terms| norm_squared(t.residual(s).as_ref());
+        stopping.alternate(cost(&terms), || {
             column_steps(s.as_ref(), &mut terms.vertical, terms.horizontal.as_ref());
             column_steps(s.transpose(), &mut terms.horizontal, terms.vertical.as_ref());
-            let after = cost(&terms);
-            if stopping.is_over(before, after) {
-                break;
-            }
-            before = after;
-        }
+            cost(&terms)
+        });
         Ok((terms.balanced(), ()))
     };
     Ok(per_channel(table, alignment, rank, fit)?.0)

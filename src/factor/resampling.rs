@@ -1,21 +1,12 @@
-//! A table between its texels.
+//! A table between its texels, smoothly.
 
 use crate::table::{Channel, Grid};
 
-/// How a table continues between texel centres; 0 beyond its outer edges.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Interpolation {
-    /// From the four texels around.
-    Bilinear,
-    /// Catmull & Rom's cubic through the sixteen texels around, held within their range so that a
-    /// table that is not negative stays so.
-    Bicubic,
-}
-
-/// The value of `channel` at h.
-pub(super) fn sample(table: &Grid, channel: &Channel, h: [f64; 2], how: Interpolation) -> f64 {
-    let (nx, ny) = (table.x.count, table.y.count);
-    let (tx, ty) = (table.x.texel(h[0]), table.y.texel(h[1]));
+/// The value of `channel` at h: Catmull & Rom's cubic through the sixteen texels around, held within
+/// their range so that a table that is not negative stays so; 0 beyond the table's outer edges.
+pub(super) fn bicubic(table: &Grid, channel: &Channel, h: [f64; 2]) -> f64 {
+    let (nx, ny) = (table.x().count, table.y().count);
+    let (tx, ty) = (table.x().texel(h[0]), table.y().texel(h[1]));
     let on = |t: f64, n: usize| (-0.5..=n as f64 - 0.5).contains(&t);
     if !(on(tx, nx) && on(ty, ny)) {
         return 0.0;
@@ -26,27 +17,17 @@ pub(super) fn sample(table: &Grid, channel: &Channel, h: [f64; 2], how: Interpol
         let j = j.clamp(0, ny as i64 - 1) as usize;
         channel.values.get(j * nx + i).map_or(0.0, |v| f64::from(*v))
     };
-    let (i, j) = (left as i64, top as i64);
-    let (u, v) = (tx - left, ty - top);
-    match how {
-        Interpolation::Bilinear => {
-            let row = |j| at(i, j) * (1.0 - u) + at(i + 1, j) * u;
-            row(j) * (1.0 - v) + row(j + 1) * v
-        }
-        Interpolation::Bicubic => {
-            let (wx, wy) = (catmull_rom(u), catmull_rom(v));
-            let (mut sum, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
-            for (dj, y) in (-1..).zip(wy) {
-                for (di, x) in (-1..).zip(wx) {
-                    let value = at(i + di, j + dj);
-                    sum += x * y * value;
-                    low = value.min(low);
-                    high = value.max(high);
-                }
-            }
-            sum.clamp(low, high)
+    let (wx, wy) = (catmull_rom(tx - left), catmull_rom(ty - top));
+    let (mut sum, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
+    for (j, y) in (top as i64 - 1..).zip(wy) {
+        for (i, x) in (left as i64 - 1..).zip(wx) {
+            let value = at(i, j);
+            sum += x * y * value;
+            low = value.min(low);
+            high = value.max(high);
         }
     }
+    sum.clamp(low, high)
 }
 
 /// Weights of the texels −1, 0, 1, 2 at `t` in [0, 1).

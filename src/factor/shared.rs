@@ -9,7 +9,7 @@
 use faer::{Mat, MatRef};
 
 use super::decomposition::require_rank;
-use super::matrix::{norm_squared, of_channel, residual, solve_towards, thin_svd, times};
+use super::matrix::{norm_squared, of_channel, solve_towards, thin_svd, times};
 use super::methods::Stopping;
 use super::terms::{Terms, canonical, orient};
 use super::{Alignment, LowRank, LowRankError};
@@ -33,17 +33,17 @@ pub struct Shared {
 /// channels.
 ///
 /// # Errors
-/// As [`Grid::check`]; [`LowRankError::Rank`]; [`LowRankError::NotConverged`].
+/// As [`Grid::check_plane`]; [`LowRankError::Rank`]; [`LowRankError::NotConverged`].
 pub fn shared(
     table: &Grid,
     alignment: Alignment,
     rank: usize,
     stopping: Stopping,
 ) -> Result<Shared, LowRankError> {
-    table.check()?;
-    require_rank(&table.origin, &table.x, &table.y, rank)?;
+    table.check_plane()?;
+    require_rank(&table.origin, table.x(), table.y(), rank)?;
     let tables: Vec<Mat<f64>> = table.channels.iter().map(|c| of_channel(table, c)).collect();
-    let (ny, nx) = (table.y.count, table.x.count);
+    let (ny, nx) = (table.y().count, table.x().count);
     let sum = Mat::from_fn(ny, nx, |i, j| tables.iter().map(|t| t[(i, j)]).sum());
     let mut svd = thin_svd(sum.as_ref(), &table.origin)?;
     canonical(&mut svd);
@@ -52,15 +52,10 @@ pub fn shared(
 
     let mut colours = Mat::from_fn(tables.len(), rank, |_, _| 1.0 / tables.len() as f64);
     colours = colour_step(&tables, &terms, &colours);
-    let mut before = cost(&tables, &terms, &colours);
-    for _ in 0..stopping.sweeps {
+    stopping.alternate(cost(&tables, &terms, &colours), || {
         sweep(&tables, &mut terms, &mut colours);
-        let after = cost(&tables, &terms, &colours);
-        if stopping.is_over(before, after) {
-            break;
-        }
-        before = after;
-    }
+        cost(&tables, &terms, &colours)
+    });
     Ok(given_out(table, alignment, &terms, &colours))
 }
 
@@ -121,18 +116,18 @@ fn elementwise(a: &Mat<f64>, b: &Mat<f64>) -> Mat<f64> {
     Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * b[(i, j)])
 }
 
-fn coloured(vertical: &Mat<f64>, colours: &Mat<f64>, channel: usize) -> Mat<f64> {
-    Mat::from_fn(vertical.nrows(), vertical.ncols(), |i, m| {
-        vertical[(i, m)] * colours[(channel, m)]
-    })
+/// The terms in one channel.
+fn coloured(terms: &Terms, colours: &Mat<f64>, channel: usize) -> Terms {
+    let mut terms = terms.clone();
+    for m in 0..terms.rank() {
+        terms.vertical.col_mut(m).iter_mut().for_each(|entry| *entry *= colours[(channel, m)]);
+    }
+    terms
 }
 
 fn cost(tables: &[Mat<f64>], terms: &Terms, colours: &Mat<f64>) -> f64 {
     let one = |(c, table): (usize, &Mat<f64>)| {
-        let vertical = coloured(&terms.vertical, colours, c);
-        norm_squared(
-            residual(table.as_ref(), vertical.as_ref(), terms.horizontal.as_ref()).as_ref(),
-        )
+        norm_squared(coloured(terms, colours, c).residual(table).as_ref())
     };
     tables.iter().enumerate().map(one).sum()
 }
@@ -168,11 +163,16 @@ fn given_out(table: &Grid, alignment: Alignment, terms: &Terms, colours: &Mat<f6
     let weights: Vec<Vec<f64>> =
         (0..colours.nrows()).map(|c| (0..rank).map(|k| relative(c, k)).collect()).collect();
     let matrix = Mat::from_fn(colours.nrows(), rank, relative);
-    let channels = table.channels.iter().enumerate().map(|(c, channel)| {
-        let vertical = coloured(&scaled.vertical, &matrix, c);
-        Terms { vertical, horizontal: scaled.horizontal.clone() }.named(&channel.name)
-    });
-    let low_rank =
-        LowRank { x: table.x.clone(), y: table.y.clone(), channels: channels.collect(), alignment };
+    let channels = table
+        .channels
+        .iter()
+        .enumerate()
+        .map(|(c, channel)| coloured(&scaled, &matrix, c).named(&channel.name));
+    let low_rank = LowRank {
+        x: table.x().clone(),
+        y: table.y().clone(),
+        channels: channels.collect(),
+        alignment,
+    };
     Shared { colours: weights, low_rank }
 }

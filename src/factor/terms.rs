@@ -2,6 +2,9 @@
 
 use faer::{Mat, MatRef};
 
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Par};
+
 use super::matrix::{ThinSvd, norm_squared, thin_svd, times};
 use super::{ChannelFactors, LowRankError};
 
@@ -34,6 +37,35 @@ impl Terms {
     /// Number of terms.
     pub(super) fn rank(&self) -> usize {
         self.vertical.ncols()
+    }
+
+    /// Their sum.
+    pub(super) fn product(&self) -> Mat<f64> {
+        times(self.vertical.as_ref(), self.horizontal.transpose())
+    }
+
+    /// What they leave of `s`.
+    pub(super) fn residual(&self, s: &Mat<f64>) -> Mat<f64> {
+        let mut rest = s.clone();
+        let (v, h) = (self.vertical.as_ref(), self.horizontal.transpose());
+        matmul(rest.as_mut(), Accum::Add, v, h, -1.0, Par::Seq);
+        rest
+    }
+
+    /// All entries in one list: those of the vertical side, then of the horizontal one, column by
+    /// column.
+    pub(super) fn entries(&self) -> Vec<f64> {
+        let columns = self.vertical.col_iter().chain(self.horizontal.col_iter());
+        columns.flat_map(|column| column.iter().copied().collect::<Vec<_>>()).collect()
+    }
+
+    /// From [`Terms::entries`]; what is missing is 0.
+    pub(super) fn of_entries(entries: &[f64], [ny, nx, rank]: [usize; 3]) -> Self {
+        let at = |index: usize| entries.get(index).copied().unwrap_or(0.0);
+        Self {
+            vertical: Mat::from_fn(ny, rank, |i, m| at(m * ny + i)),
+            horizontal: Mat::from_fn(nx, rank, |j, m| at(rank * ny + m * nx + j)),
+        }
     }
 
     /// The same kernel with orthogonal terms, largest first, shared evenly and signed by
@@ -126,17 +158,13 @@ pub(super) fn orient(terms: &mut Terms, like: Option<&Terms>) {
         let against = like.filter(|other| m < other.rank()).and_then(|other| {
             let other = other.vertical.col(m);
             let dot: f64 = vertical.iter().zip(other.iter()).map(|(a, b)| a * b).sum();
-            let squares = |list: &mut dyn Iterator<Item = f64>| list.map(|x| x * x).sum::<f64>();
-            let lengths =
-                squares(&mut vertical.iter().copied()) * squares(&mut other.iter().copied());
-            (dot.abs() > SAME_TERM * lengths.sqrt()).then_some(dot < 0.0)
+            let [own, theirs] = [&vertical, &other.iter().copied().collect::<Vec<_>>()]
+                .map(|list| list.iter().map(|x| x * x).sum::<f64>());
+            (dot.abs() > SAME_TERM * (own * theirs).sqrt()).then_some(dot < 0.0)
         });
         if against.unwrap_or_else(|| points_down(&vertical)) {
-            for i in 0..terms.vertical.nrows() {
-                terms.vertical[(i, m)] = -terms.vertical[(i, m)];
-            }
-            for j in 0..terms.horizontal.nrows() {
-                terms.horizontal[(j, m)] = -terms.horizontal[(j, m)];
+            for side in [&mut terms.vertical, &mut terms.horizontal] {
+                side.col_mut(m).iter_mut().for_each(|entry| *entry = -*entry);
             }
         }
     }

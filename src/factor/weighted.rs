@@ -6,11 +6,11 @@
 
 use faer::Mat;
 
-use super::matrix::{of_channel, solve_towards};
-use super::methods::{Stopping, per_channel};
+use super::matrix::solve_towards;
+use super::methods::{Stopping, per_channel, require_size};
 use super::terms::Terms;
 use super::{Alignment, LowRank, LowRankError};
-use crate::table::{Axis, Channel, Grid};
+use crate::table::{Axis, Grid, centres};
 
 /// Relative ridge that holds a row of a side where its weights leave it open.
 const ANCHOR: f64 = 1e-12;
@@ -18,7 +18,7 @@ const ANCHOR: f64 = 1e-12;
 /// A weight per texel, rows of constant y one after the other; finite and not negative.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Weight {
-    nx: usize,
+    size: [usize; 2],
     values: Vec<f64>,
 }
 
@@ -42,7 +42,7 @@ impl Weight {
                 expected: "finite values that are not negative".into(),
                 got: bad.to_string(),
             }),
-            None => Ok(Self { nx: x.count, values }),
+            None => Ok(Self { size: [x.count, y.count], values }),
         }
     }
 
@@ -51,22 +51,19 @@ impl Weight {
     /// 0 outside the unit disc, which no light reaches (toisoul2017 eq. 6).
     pub fn of_incidence(x: &Axis, y: &Axis, alignment: &Alignment) -> Self {
         let inverse = alignment.inverse();
-        let weight = |ax: f64, ay: f64| {
-            let [hx, hy] = inverse.map(|row| row[0] * ax + row[1] * ay);
+        let weight = |a: [f64; 2]| {
+            let [hx, hy] = inverse.apply(a);
             let sine_squared = hx * hx + hy * hy;
             if sine_squared > 1.0 {
                 return 0.0;
             }
             ((1.0 + (1.0 - sine_squared).sqrt()).powi(2) / 4.0).powi(2)
         };
-        let xs = x.centres();
-        let rows = y.centres();
-        let values = rows.iter().flat_map(|ay| xs.iter().map(move |ax| weight(*ax, *ay))).collect();
-        Self { nx: x.count, values }
+        Self { size: [x.count, y.count], values: centres(x, y).map(weight).collect() }
     }
 
     fn at(&self, iy: usize, ix: usize) -> f64 {
-        self.values.get(iy * self.nx + ix).copied().unwrap_or(0.0)
+        self.values.get(iy * self.size[0] + ix).copied().unwrap_or(0.0)
     }
 
     /// √W.
@@ -74,17 +71,9 @@ impl Weight {
         self.at(iy, ix).sqrt()
     }
 
-    fn squared(&self, s: &Mat<f64>, terms: Option<&Terms>) -> f64 {
-        let fit = |i: usize, j: usize| {
-            terms.map_or(0.0, |t| {
-                (0..t.rank()).map(|m| t.vertical[(i, m)] * t.horizontal[(j, m)]).sum()
-            })
-        };
-        (0..s.nrows())
-            .map(|i| {
-                (0..s.ncols()).map(|j| self.at(i, j) * (s[(i, j)] - fit(i, j)).powi(2)).sum::<f64>()
-            })
-            .sum()
+    fn squared(&self, d: &Mat<f64>) -> f64 {
+        let row = |i: usize| (0..d.ncols()).map(|j| self.at(i, j) * d[(i, j)].powi(2)).sum::<f64>();
+        (0..d.nrows()).map(row).sum()
     }
 
     /// √(Σ W (S − Ŝ)²/Σ W S²) per channel; 0 for a channel that is 0 under the weight.
@@ -97,22 +86,11 @@ impl Weight {
         factors: &LowRank,
     ) -> Result<Vec<f64>, LowRankError> {
         self.require(table)?;
-        let error = |(channel, terms): (&Channel, Terms)| {
-            let s = of_channel(table, channel);
-            let whole = self.squared(&s, None);
-            if whole == 0.0 { 0.0 } else { (self.squared(&s, Some(&terms)) / whole).sqrt() }
-        };
-        Ok(factors.matched(table)?.into_iter().map(error).collect())
+        factors.relative_errors_by(table, |d| self.squared(d))
     }
 
     fn require(&self, table: &Grid) -> Result<(), LowRankError> {
-        if self.nx == table.x.count && self.values.len() == table.x.count * table.y.count {
-            return Ok(());
-        }
-        Err(LowRankError::Mismatch {
-            origin: table.origin.clone(),
-            what: format!("the weight has {} values of another shape", self.values.len()),
-        })
+        require_size(table, self.size, "the weight has")
     }
 }
 
@@ -120,7 +98,7 @@ impl Weight {
 /// decomposition: never worse than it under the weight.
 ///
 /// # Errors
-/// As [`Grid::check`]; [`LowRankError::Rank`]; [`LowRankError::Mismatch`] if the weight has another
+/// As [`Grid::check_plane`]; [`LowRankError::Rank`]; [`LowRankError::Mismatch`] if the weight has another
 /// size than the table; [`LowRankError::NotConverged`].
 pub fn weighted(
     table: &Grid,
@@ -129,21 +107,17 @@ pub fn weighted(
     weight: &Weight,
     stopping: Stopping,
 ) -> Result<LowRank, LowRankError> {
-    table.check()?;
+    table.check_plane()?;
     weight.require(table)?;
     let fit = |_: usize, s: &Mat<f64>, mut terms: Terms| {
-        let mut before = weight.squared(s, Some(&terms));
-        for _ in 0..stopping.sweeps {
+        let cost = |terms: &Terms| weight.squared(&terms.residual(s));
+        stopping.alternate(cost(&terms), || {
             terms.vertical =
                 side(&terms.horizontal, &terms.vertical, |i, j| (weight.at(i, j), s[(i, j)]));
             terms.horizontal =
                 side(&terms.vertical, &terms.horizontal, |j, i| (weight.at(i, j), s[(i, j)]));
-            let after = weight.squared(s, Some(&terms));
-            if stopping.is_over(before, after) {
-                break;
-            }
-            before = after;
-        }
+            cost(&terms)
+        });
         Ok((terms.orthogonal(&table.origin)?, ()))
     };
     Ok(per_channel(table, alignment, rank, fit)?.0)

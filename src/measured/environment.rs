@@ -13,12 +13,7 @@ pub const LEAST_HEIGHT: usize = 4;
 /// Luminance of linear R, G, B with the primaries of Rec. 709 (ITU-R BT.709-6, item 3.2).
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// Radiance from every direction of the sphere.
-///
-/// Rows run from the zenith (+z) to the nadir, columns with increasing azimuth from +x through +y.
-/// The centre of texel (i, j) of `width` × `height` stands for the direction of azimuth
-/// φ = 2π (i + ½)/width and polar angle θ = π (j + ½)/height, that is
-/// (sin θ cos φ, sin θ sin φ, cos θ). `width` = 2 · `height`.
+/// Radiance from every direction of the sphere, laid out as [`LatLong`] with `width` = 2 · `height`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Environment {
     /// Texels around.
@@ -29,6 +24,77 @@ pub struct Environment {
     pub radiance: Vec<[f32; 3]>,
     /// One line on the origin: file and SHA-256.
     pub origin: String,
+}
+
+/// Texels over the sphere in latitude–longitude format.
+///
+/// Rows run from the zenith (+z) to the nadir, columns with increasing azimuth from +x through +y.
+/// The centre of texel (i, j) of `width` × `height` stands for the direction of azimuth
+/// φ = 2π (i + ½)/width and polar angle θ = π (j + ½)/height, that is
+/// (sin θ cos φ, sin θ sin φ, cos θ).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LatLong {
+    /// Texels around.
+    pub width: usize,
+    /// Texels from zenith to nadir.
+    pub height: usize,
+}
+
+impl LatLong {
+    /// Direction at continuous texel coordinates: `x` in [0, width], `y` in [0, height], ½ past the
+    /// index at a texel's centre. A unit vector.
+    pub fn direction(&self, x: f64, y: f64) -> [f64; 3] {
+        let (phi, theta) = (2.0 * PI * x / self.width as f64, PI * y / self.height as f64);
+        [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
+    }
+
+    /// Continuous texel coordinates (x, y) of a direction of any length but 0: the inverse of
+    /// [`LatLong::direction`], x in [0, width).
+    pub fn coordinates(&self, direction: [f64; 3]) -> (f64, f64) {
+        let (x, y) = self.unwrapped(direction);
+        let width = self.width as f64;
+        let turned = if x < 0.0 { x + width } else { x };
+        // A small negative number rounds up to the width.
+        (if turned < width { turned } else { 0.0 }, y)
+    }
+
+    /// As [`LatLong::coordinates`] but for a turn, x in [−width/2, width/2], without its rounding.
+    pub(crate) fn unwrapped(&self, [x, y, z]: [f64; 3]) -> (f64, f64) {
+        let column = y.atan2(x) * self.width as f64 / (2.0 * PI);
+        (column, x.hypot(y).atan2(z) * self.height as f64 / PI)
+    }
+
+    /// The four texels around a direction of any length but 0, by their number row by row, with
+    /// their bilinear shares; around in azimuth and on over the poles.
+    pub fn around(&self, direction: [f64; 3]) -> [(usize, f64); 4] {
+        let (x, y) = self.unwrapped(direction);
+        self.between(x - 0.5, y - 0.5)
+    }
+
+    /// The four texels around a place between the centres of texels, which have whole coordinates.
+    pub fn between(&self, x: f64, y: f64) -> [(usize, f64); 4] {
+        let (left, top) = (x.floor(), y.floor());
+        let (u, v) = (x - left, y - top);
+        let (left, top) = (left as i64, top as i64);
+        [
+            (self.texel(left, top), (1.0 - u) * (1.0 - v)),
+            (self.texel(left + 1, top), u * (1.0 - v)),
+            (self.texel(left, top + 1), (1.0 - u) * v),
+            (self.texel(left + 1, top + 1), u * v),
+        ]
+    }
+
+    /// Number of the texel at any column, and any row up to a turn beyond a pole: column i is column
+    /// i ± width, and row −1 at column i is row 0 at the column opposite.
+    fn texel(&self, column: i64, row: i64) -> usize {
+        let (width, height) = (self.width as i64, self.height as i64);
+        let (column, row) = match row {
+            row if row < 0 => (column + width / 2, -1 - row),
+            row if row >= height => (column + width / 2, 2 * height - 1 - row),
+            row => (column, row),
+        };
+        (row * width + column.checked_rem_euclid(width).unwrap_or(0)).max(0) as usize
+    }
 }
 
 /// What becomes of negative values in a file, which lossy packing leaves beside bright texels.
@@ -98,58 +164,22 @@ impl Environment {
         environment_resized::resized(self, width)
     }
 
-    /// Direction at continuous texel coordinates: `x` in [0, width], `y` in [0, height], ½ past the
-    /// index at a texel's centre. A unit vector.
-    pub fn direction(&self, x: f64, y: f64) -> [f64; 3] {
-        let (phi, theta) = (2.0 * PI * x / self.width as f64, PI * y / self.height as f64);
-        [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
+    /// How its texels lie over the sphere.
+    pub fn layout(&self) -> LatLong {
+        LatLong { width: self.width, height: self.height }
     }
 
-    /// Continuous texel coordinates (x, y) of a direction of any length but 0: the inverse of
-    /// [`Environment::direction`], x in [0, width).
-    pub fn coordinates(&self, direction: [f64; 3]) -> (f64, f64) {
-        let [x, y, z] = direction;
-        let turn = (y.atan2(x) / (2.0 * PI)).rem_euclid(1.0);
-        // rem_euclid of a small negative number rounds up to 1.
-        let turn = if turn < 1.0 { turn } else { turn - 1.0 };
-        (turn * self.width as f64, x.hypot(y).atan2(z) / PI * self.height as f64)
-    }
-
-    /// Linear R, G, B from a direction of any length but 0: bilinear between the four nearest
-    /// texel centres, around in azimuth and on over the poles.
+    /// Linear R, G, B from a direction of any length but 0: bilinear ([`LatLong::around`]). Black
+    /// for a map without texels.
     pub fn radiance(&self, direction: [f64; 3]) -> [f64; 3] {
-        let (x, y) = self.coordinates(direction);
-        let (x, y) = (x - 0.5, y - 0.5);
-        let (left, top) = (x.floor(), y.floor());
-        let (u, v) = (x - left, y - top);
-        let (left, top) = (left as i64, top as i64);
         let mut sum = [0.0; 3];
-        for (column, row, weight) in [
-            (left, top, (1.0 - u) * (1.0 - v)),
-            (left + 1, top, u * (1.0 - v)),
-            (left, top + 1, (1.0 - u) * v),
-            (left + 1, top + 1, u * v),
-        ] {
-            for (sum, value) in sum.iter_mut().zip(self.texel(column, row)) {
-                *sum += weight * f64::from(value);
+        for (texel, share) in self.layout().around(direction) {
+            let texel = self.radiance.get(texel).copied().unwrap_or_default();
+            for (sum, value) in sum.iter_mut().zip(texel) {
+                *sum += share * f64::from(value);
             }
         }
         sum
-    }
-
-    /// The texel at any column and row: column i is column i ± width, and row −1 at column i is
-    /// row 0 at the column opposite. Black for a map without texels.
-    fn texel(&self, column: i64, row: i64) -> [f32; 3] {
-        let (width, height) = (self.width as i64, self.height as i64);
-        let over_a_pole = row < 0 || row >= height;
-        let row = match row {
-            row if row < 0 => -1 - row,
-            row if row >= height => 2 * height - 1 - row,
-            row => row,
-        };
-        let column = if over_a_pole { column + width / 2 } else { column };
-        let index = row * width + column.checked_rem_euclid(width).unwrap_or(0);
-        usize::try_from(index).ok().and_then(|i| self.radiance.get(i)).copied().unwrap_or_default()
     }
 
     /// Solid angle of a texel of `row` (below `height`), sr: 2π/width (cos θ_top − cos θ_bottom).
@@ -185,9 +215,9 @@ impl Environment {
     /// from R v, and the new radiance from d is the old one from Rᵀ d, bilinear between texels. So
     /// the mean is kept to within interpolation only. `rows` must be orthonormal.
     pub fn rotated(&self, rows: [[f64; 3]; 3]) -> Self {
-        let [a, b, c] = rows;
+        let ([a, b, c], layout) = (rows, self.layout());
         let texel = |column: usize, row: usize| {
-            let [x, y, z] = self.direction(column as f64 + 0.5, row as f64 + 0.5);
+            let [x, y, z] = layout.direction(column as f64 + 0.5, row as f64 + 0.5);
             let back: [f64; 3] = std::array::from_fn(|i| a[i] * x + b[i] * y + c[i] * z);
             self.radiance(back).map(|value| value as f32)
         };
@@ -229,7 +259,8 @@ impl Environment {
     }
 }
 
-fn luminance(rgb: [f64; 3]) -> f64 {
+/// Luminance of linear R, G, B with the primaries of Rec. 709.
+pub(crate) fn luminance(rgb: [f64; 3]) -> f64 {
     rgb.iter().zip(LUMINANCE).map(|(value, weight)| value * weight).sum()
 }
 

@@ -62,19 +62,20 @@ impl HeightMap {
     /// [`MeasuredError`] naming the grid's origin: no such channel, another unit, an axis that
     /// falls, and as [`HeightMap::check`].
     pub fn from_grid(grid: &Grid) -> Result<Self, MeasuredError> {
+        grid.check_plane()?;
         let origin = grid.origin.clone();
         let channel = grid.require(HEIGHT)?;
         let to_nm = units::conversion(&channel.unit, "nm", &origin, HEIGHT)?;
         let spacing = |axis: &Axis| {
             let to_um = units::conversion(&axis.unit, "um", &origin, &axis.name)?;
-            Ok::<f64, MeasuredError>(to_um * (axis.to - axis.from) / axis.count as f64)
+            Ok::<f64, MeasuredError>(to_um * axis.step())
         };
-        let (dx_um, dy_um) = (spacing(&grid.x)?, spacing(&grid.y)?);
+        let (dx_um, dy_um) = (spacing(grid.x())?, spacing(grid.y())?);
         let mut height_nm: Vec<f64> =
             channel.values.iter().map(|value| f64::from(*value) * to_nm).collect();
         if let Some(valid) = grid.channel(VALID) {
             units::conversion(&valid.unit, "1", &origin, VALID)?;
-            let samples = Samples { origin: &origin, width: grid.x.count, values: &valid.values };
+            let samples = Samples { origin: &origin, width: grid.x().count, values: &valid.values };
             samples.refuse("values of `valid` are neither 0 nor 1", "0 or 1", |value| {
                 (*value != 0.0 && *value != 1.0).then_some(f64::from(*value))
             })?;
@@ -84,7 +85,7 @@ impl HeightMap {
                 }
             }
         }
-        let (nx, ny) = (grid.x.count, grid.y.count);
+        let (nx, ny) = (grid.x().count, grid.y().count);
         let map = Self { nx, ny, dx_um, dy_um, height_nm, origin };
         map.check()?;
         Ok(map)
@@ -97,32 +98,18 @@ impl HeightMap {
     /// As [`HeightMap::check`]; a height beyond the range of f32.
     pub fn to_grid(&self) -> Result<Grid, MeasuredError> {
         self.check()?;
-        let axis = |name: &str, count: usize, spacing: f64| Axis {
-            name: name.into(),
-            unit: "um".into(),
-            from: 0.0,
-            to: count as f64 * spacing,
-            count,
+        let axis = |name: &str, count: usize, spacing: f64| {
+            Axis::new(name, "um", [0.0, count as f64 * spacing], count)
         };
         let height = |nm: &f64| if nm.is_nan() { 0.0 } else { *nm as f32 };
-        let channel = |name: &str, unit: &str, values: Vec<f32>| Channel {
-            name: name.into(),
-            unit: unit.into(),
-            values,
-        };
-        let mut channels = vec![channel(HEIGHT, "nm", self.height_nm.iter().map(height).collect())];
+        let mut channels =
+            vec![Channel::new(HEIGHT, "nm", self.height_nm.iter().map(height).collect())];
         if self.height_nm.iter().any(|nm| nm.is_nan()) {
             let valid = |nm: &f64| if nm.is_nan() { 0.0 } else { 1.0 };
-            channels.push(channel(VALID, "1", self.height_nm.iter().map(valid).collect()));
+            channels.push(Channel::new(VALID, "1", self.height_nm.iter().map(valid).collect()));
         }
-        let grid = Grid {
-            x: axis("x", self.nx, self.dx_um),
-            y: axis("y", self.ny, self.dy_um),
-            channels,
-            origin: self.origin.clone(),
-        };
-        grid.check()?;
-        Ok(grid)
+        let axes = [axis("x", self.nx, self.dx_um), axis("y", self.ny, self.dy_um)];
+        Ok(Grid::new(axes, channels, &self.origin)?)
     }
 
     /// Height in nm at sample (`ix`, `iy`); `None` outside the map and where there is no data.

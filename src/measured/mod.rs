@@ -22,7 +22,7 @@ pub mod spectra;
 mod tabulation;
 
 pub use self::dispersion::{Dispersion, Formula};
-pub use self::environment::{Environment, Negative};
+pub use self::environment::{Environment, LatLong, Negative};
 pub use self::error::MeasuredError;
 pub use self::height_map::HeightMap;
 pub use self::import::{Content, Imported, import, import_with, known_formats};

@@ -24,9 +24,29 @@ pub struct Axis {
 }
 
 impl Axis {
+    /// An axis of `count` texels between two outer edges.
+    pub fn new(
+        name: impl Into<String>,
+        unit: impl Into<String>,
+        [from, to]: [f64; 2],
+        count: usize,
+    ) -> Self {
+        Self { name: name.into(), unit: unit.into(), from, to, count }
+    }
+
+    /// Step from texel to texel, below 0 on an axis that falls.
+    pub fn step(&self) -> f64 {
+        (self.to - self.from) / self.count as f64
+    }
+
+    /// The value at `t` texels from the outer edge of the first, which may lie outside the axis.
+    pub fn at(&self, t: f64) -> f64 {
+        self.from + t * (self.to - self.from) / self.count as f64
+    }
+
     /// The value at the centre of texel `i`, which may lie outside the axis.
     pub fn centre(&self, i: usize) -> f64 {
-        self.from + (i as f64 + 0.5) * (self.to - self.from) / self.count as f64
+        self.at(i as f64 + 0.5)
     }
 
     /// The values at all centres, in order.
@@ -37,6 +57,19 @@ impl Axis {
     /// Position of `value` in texels from the first centre: `i` at the centre of texel `i`.
     pub fn texel(&self, value: f64) -> f64 {
         (value - self.from) / (self.to - self.from) * self.count as f64 - 0.5
+    }
+
+    /// The texels with their centres on either side of `value` and the part of the way to the
+    /// second; the outermost texel twice between its centre and the edge, `None` beyond.
+    pub fn between(&self, value: f64) -> Option<(usize, usize, f64)> {
+        let last = self.count.checked_sub(1)?;
+        let at = self.texel(value);
+        if !(-0.5..=last as f64 + 0.5).contains(&at) {
+            return None;
+        }
+        let at = at.clamp(0.0, last as f64);
+        let low = at.floor() as usize;
+        Some((low, (low + 1).min(last), at.fract()))
     }
 
     pub(super) fn check(&self, origin: &str) -> Result<(), TableError> {

@@ -165,6 +165,16 @@ pub enum TableError {
         /// Number of values that is there.
         got: usize,
     },
+    /// A grid of another number of axes than its use asks for.
+    #[error("{origin}: {got} axes, expected {expected}")]
+    Dimension {
+        /// The grid.
+        origin: String,
+        /// Number of axes that is needed.
+        expected: usize,
+        /// Number of axes that is there.
+        got: usize,
+    },
     /// A column or channel that is not there.
     #[error("{origin}: no column {name:?}; it has: {known}")]
     UnknownColumn {

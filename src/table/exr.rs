@@ -1,7 +1,9 @@
 //! Grids as OpenEXR: f32 channels, one part, scan lines, with the axes in a sidecar.
 //!
-//! The sidecar `<file>.axes.toml` holds `[x]` and `[y]` ([`Axis`]) and one `[[channel]]` with
-//! `name` and `unit` per channel. A half-float file reads too, since every half is an f32.
+//! The sidecar `<file>.axes.toml` holds `[x]`, `[y]` and one `[[axis]]` per further axis ([`Axis`]),
+//! and one `[[channel]]` with `name` and `unit` per channel. The pixels run as a [`Grid`]'s values do:
+//! a grid of one axis is a row, one of more than two is its planes of x and y one below the other,
+//! the last axis slowest. A half-float file reads too, since every half is an f32.
 
 use std::ffi::OsString;
 use std::io::Cursor;
@@ -27,7 +29,10 @@ const MAX_COMPRESSION: u128 = 1032;
 #[serde(deny_unknown_fields)]
 struct Sidecar {
     x: Axis,
-    y: Axis,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    y: Option<Axis>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    axis: Vec<Axis>,
     channel: Vec<ChannelEntry>,
 }
 
@@ -79,23 +84,32 @@ impl Grid {
             origin: sidecar_origin.into(),
             reason: e.to_string().trim_end().to_owned(),
         })?;
-        sidecar.x.check(sidecar_origin)?;
-        sidecar.y.check(sidecar_origin)?;
-        let decoded = decode(origin, pixels)?;
-        if decoded.width != sidecar.x.count || decoded.height != sidecar.y.count {
-            let (w, h) = (decoded.width, decoded.height);
-            return Err(TableError::Malformed {
-                origin: sidecar_origin.into(),
-                reason: format!(
-                    "the axes have {} × {} texels, {origin} has {w} × {h}",
-                    sidecar.x.count, sidecar.y.count
-                ),
-            });
+        let fault =
+            |reason: String| TableError::Malformed { origin: sidecar_origin.into(), reason };
+        if sidecar.y.is_none() && !sidecar.axis.is_empty() {
+            return Err(fault("no [y] before [[axis]]".into()));
         }
-        let channels = match_channels(origin, sidecar_origin, decoded.channels, sidecar.channel)?;
-        let grid = Self { x: sidecar.x, y: sidecar.y, channels, origin: origin.into() };
+        let axes: Vec<Axis> =
+            [sidecar.x].into_iter().chain(sidecar.y).chain(sidecar.axis).collect();
+        axes.iter().try_for_each(|axis| axis.check(sidecar_origin))?;
+        let decoded = decode(origin, pixels)?;
+        let mut grid = Self { axes, channels: Vec::new(), origin: origin.into() };
+        let (across, down) = grid.pixels();
+        if (decoded.width, decoded.height) != (across, down) {
+            let (w, h) = (decoded.width, decoded.height);
+            return Err(fault(format!(
+                "the axes have {across} × {down} texels, {origin} has {w} × {h}"
+            )));
+        }
+        grid.channels = match_channels(origin, sidecar_origin, decoded.channels, sidecar.channel)?;
         grid.check()?;
         Ok(grid)
+    }
+
+    /// Pixels across and down of the grid's file.
+    fn pixels(&self) -> (usize, usize) {
+        let down = self.axes.iter().skip(1);
+        (self.x().count, down.fold(1, |product, axis| product.saturating_mul(axis.count)))
     }
 
     /// Writes the sidecar and then the EXR file, each whole or not at all. The same grid always
@@ -119,12 +133,14 @@ impl Grid {
         let fault = |reason: String| TableError::Malformed { origin: self.origin.clone(), reason };
         let channels: Vec<(&str, &[f32])> =
             self.channels.iter().map(|c| (c.name.as_str(), c.values.as_slice())).collect();
-        let pixels = encode(&self.origin, self.x.count, self.y.count, &channels)?;
+        let (across, down) = self.pixels();
+        let pixels = encode(&self.origin, across, down, &channels)?;
 
         let entry = |c: &Channel| ChannelEntry { name: c.name.clone(), unit: c.unit.clone() };
         let sidecar = Sidecar {
-            x: self.x.clone(),
-            y: self.y.clone(),
+            x: self.x().clone(),
+            y: self.axes.get(1).cloned(),
+            axis: self.axes.iter().skip(2).cloned().collect(),
             channel: self.channels.iter().map(entry).collect(),
         };
         let text = toml::to_string(&sidecar).map_err(|e| fault(e.to_string()))?;

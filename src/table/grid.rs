@@ -1,4 +1,4 @@
-use super::{Axis, TableError, units};
+use super::{Axis, Column, Table, TableError, units};
 
 /// A quantity on a [`Grid`].
 #[derive(Debug, Clone, PartialEq)]
@@ -7,24 +7,71 @@ pub struct Channel {
     pub name: String,
     /// Its unit, one of [`units::KNOWN`].
     pub unit: String,
-    /// One value per texel, rows of constant y one after the other, x running fastest.
+    /// One value per texel: the first axis runs fastest, the last slowest.
     pub values: Vec<f32>,
 }
 
-/// Quantities on one regular two-dimensional grid.
+impl Channel {
+    /// A quantity with its values.
+    pub fn new(name: impl Into<String>, unit: impl Into<String>, values: Vec<f32>) -> Self {
+        Self { name: name.into(), unit: unit.into(), values }
+    }
+}
+
+/// Quantities on one regular grid of any dimension.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
-    /// The axis that runs fastest: left to right in an image.
-    pub x: Axis,
-    /// The other axis: top to bottom in an image.
-    pub y: Axis,
+    /// The axes, the one that runs fastest first: in an image left to right, then top to bottom.
+    pub axes: Vec<Axis>,
     /// The quantities, in the order of the sidecar.
     pub channels: Vec<Channel>,
     /// One line on the origin: file and SHA-256, or the reference that made it.
     pub origin: String,
 }
 
+/// How a [`Grid`] continues beyond the centres of its outermost texels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Edge {
+    /// Constant to the outer edge of the texel, 0 beyond.
+    Held,
+    /// Linear down to 0 where the centre of the next texel would be.
+    Fading,
+}
+
+/// What a grid has in place of an axis that it lacks.
+static POINT: Axis =
+    Axis { name: String::new(), unit: String::new(), from: -0.5, to: 0.5, count: 1 };
+
 impl Grid {
+    /// A grid that is as [`Grid::check`] asks for.
+    ///
+    /// # Errors
+    /// As [`Grid::check`].
+    pub fn new(
+        axes: impl Into<Vec<Axis>>,
+        channels: Vec<Channel>,
+        origin: impl Into<String>,
+    ) -> Result<Self, TableError> {
+        let grid = Self { axes: axes.into(), channels, origin: origin.into() };
+        grid.check()?;
+        Ok(grid)
+    }
+
+    /// The axis that runs fastest: left to right in an image. One texel for a grid without axes.
+    pub fn x(&self) -> &Axis {
+        self.axes.first().unwrap_or(&POINT)
+    }
+
+    /// The second axis: top to bottom in an image. One texel for a grid of fewer axes.
+    pub fn y(&self) -> &Axis {
+        self.axes.get(1).unwrap_or(&POINT)
+    }
+
+    /// Number of texels; the largest number that fits if it is larger still.
+    pub fn texels(&self) -> usize {
+        self.axes.iter().fold(1, |product, axis| product.saturating_mul(axis.count))
+    }
+
     /// The channel called `name`.
     pub fn channel(&self, name: &str) -> Option<&Channel> {
         self.channels.iter().find(|c| c.name == name)
@@ -42,13 +89,69 @@ impl Grid {
         })
     }
 
-    /// The value of channel `name` in texel (`ix`, `iy`); `None` outside the grid.
-    pub fn at(&self, name: &str, ix: usize, iy: usize) -> Option<f32> {
-        if ix >= self.x.count {
+    /// The value of channel `name` in a texel, one index per axis; `None` outside the grid.
+    pub fn at(&self, name: &str, texel: &[usize]) -> Option<f32> {
+        if texel.len() != self.axes.len() {
             return None;
         }
-        let index = iy.checked_mul(self.x.count)?.checked_add(ix)?;
+        let index = self.axes.iter().zip(texel).rev().try_fold(0usize, |index, (axis, i)| {
+            (*i < axis.count).then_some(index.checked_mul(axis.count)?.checked_add(*i)?)
+        })?;
         self.channel(name)?.values.get(index).copied()
+    }
+
+    /// The indices of texel number `index`, one per axis.
+    pub fn texel(&self, mut index: usize) -> Vec<usize> {
+        let mut digit = |axis: &Axis| {
+            let i = index % axis.count.max(1);
+            index /= axis.count.max(1);
+            i
+        };
+        self.axes.iter().map(&mut digit).collect()
+    }
+
+    /// The value of one of its channels at a place, one coordinate per axis (NaN otherwise): linear
+    /// between the centres of the texels along every axis.
+    pub fn sample(&self, channel: &Channel, place: &[f64], edge: Edge) -> f64 {
+        if place.len() != self.axes.len() {
+            return f64::NAN;
+        }
+        let on = |(axis, value): (&Axis, &f64)| {
+            (-0.5..=axis.count as f64 - 0.5).contains(&axis.texel(*value))
+        };
+        if edge == Edge::Held && !self.axes.iter().zip(place).all(on) {
+            return 0.0;
+        }
+        interpolated(&channel.values, &self.axes, place, edge, (0, self.texels()))
+    }
+
+    /// A row per texel: a column per axis, then one per channel.
+    pub fn to_table(&self) -> Table {
+        let mut columns = Vec::with_capacity(self.axes.len() + self.channels.len());
+        let mut below = 1;
+        for axis in &self.axes {
+            let centre = |index: usize| axis.centre(index / below % axis.count.max(1));
+            let centres = (0..self.texels()).map(centre).collect();
+            columns.push(Column::new(&axis.name, &axis.unit, centres));
+            below *= axis.count.max(1);
+        }
+        columns.extend(self.channels.iter().map(|channel| {
+            let values = channel.values.iter().map(|v| f64::from(*v)).collect();
+            Column::new(&channel.name, &channel.unit, values)
+        }));
+        Table { columns, origin: self.origin.clone() }
+    }
+
+    /// As [`Grid::check`], for what takes two axes and no other number.
+    ///
+    /// # Errors
+    /// [`TableError::Dimension`] for another number of axes, and as [`Grid::check`].
+    pub fn check_plane(&self) -> Result<(), TableError> {
+        if self.axes.len() != 2 {
+            let (origin, got) = (self.origin.clone(), self.axes.len());
+            return Err(TableError::Dimension { origin, expected: 2, got });
+        }
+        self.check()
     }
 
     /// Checks what reading guarantees, for a grid made in memory: axes with a range and texels,
@@ -58,8 +161,10 @@ impl Grid {
     /// The first rule that is broken.
     pub fn check(&self) -> Result<(), TableError> {
         let origin = &self.origin;
-        self.x.check(origin)?;
-        self.y.check(origin)?;
+        if self.axes.is_empty() {
+            return Err(TableError::Empty { origin: origin.clone(), what: "no axes" });
+        }
+        self.axes.iter().try_for_each(|axis| axis.check(origin))?;
         if self.channels.is_empty() {
             return Err(TableError::Empty { origin: origin.clone(), what: "no channels" });
         }
@@ -85,18 +190,132 @@ impl Grid {
             return Err(TableError::DuplicateColumn { origin, line: 1, name });
         }
         units::require(&channel.unit, &origin, &name)?;
-        let (expected, got) = (self.x.count.saturating_mul(self.y.count), channel.values.len());
+        let (expected, got) = (self.texels(), channel.values.len());
         if got != expected {
             return Err(TableError::Length { origin, column: name, expected, got });
         }
-        match channel.values.iter().position(|v| !v.is_finite()) {
-            Some(index) => Err(TableError::NonFinite {
-                origin,
-                row: format!("texel ({}, {})", index % self.x.count, index / self.x.count),
-                column: name,
-                got: channel.values.get(index).map_or(f64::NAN, |v| f64::from(*v)),
-            }),
+        match channel.values.iter().enumerate().find(|(_, v)| !v.is_finite()) {
+            Some((index, value)) => {
+                let texel: Vec<String> = self.texel(index).iter().map(usize::to_string).collect();
+                let row = format!("texel ({})", texel.join(", "));
+                Err(TableError::NonFinite { origin, row, column: name, got: f64::from(*value) })
+            }
             None => Ok(()),
         }
+    }
+}
+
+/// The centres of the texels of a plane, x running fastest.
+pub fn centres(x: &Axis, y: &Axis) -> impl Iterator<Item = [f64; 2]> + use<> {
+    let (xs, ys) = (x.centres(), y.centres());
+    ys.into_iter().flat_map(move |y| xs.clone().into_iter().map(move |x| [x, y]))
+}
+
+/// Linear along the last of `axes` between what the others give: `begin` is the first texel of the
+/// part of the grid that they span, `count` the number of its texels.
+fn interpolated(
+    values: &[f32],
+    axes: &[Axis],
+    place: &[f64],
+    edge: Edge,
+    (begin, count): (usize, usize),
+) -> f64 {
+    let (Some((axis, axes)), Some((value, place))) = (axes.split_last(), place.split_last()) else {
+        return values.get(begin).map_or(0.0, |value| f64::from(*value));
+    };
+    let (stride, last) = (count / axis.count.max(1), axis.count as i64 - 1);
+    let slice = |i: i64| {
+        if edge == Edge::Fading && !(0..=last).contains(&i) {
+            return 0.0;
+        }
+        let begin = begin + i.clamp(0, last.max(0)) as usize * stride;
+        interpolated(values, axes, place, edge, (begin, stride))
+    };
+    let t = axis.texel(*value);
+    let part = t - t.floor();
+    let low = t.floor() as i64;
+    slice(low) * (1.0 - part) + slice(low.saturating_add(1)) * part
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 4 × 3 × 2 texels of a function that is linear along every axis.
+    fn linear() -> Grid {
+        let axes = [
+            Axis::new("x", "1", [0.0, 4.0], 4),
+            Axis::new("y", "nm", [6.0, 0.0], 3),
+            Axis::new("z", "rad", [-1.0, 1.0], 2),
+        ];
+        let mut grid = Grid { axes: axes.into(), channels: Vec::new(), origin: "made".into() };
+        let value = |index: usize| {
+            let texel = grid.texel(index);
+            let [x, y, z] = [0, 1, 2].map(|k| grid.axes[k].centre(texel[k]));
+            function(x, y, z) as f32
+        };
+        let values = (0..24).map(value).collect();
+        grid.channels.push(Channel::new("f", "1", values));
+        grid
+    }
+
+    fn function(x: f64, y: f64, z: f64) -> f64 {
+        (1.0 + x) * (2.0 - 0.25 * y) * (3.0 + z)
+    }
+
+    #[test]
+    fn samples_are_linear_along_every_axis() {
+        let grid = linear();
+        grid.check().expect("a grid");
+        let f = &grid.channels[0];
+        // Products of eighths: exact in f32.
+        for place in [[0.5, 5.0, -0.5], [2.0, 3.0, 0.0], [1.75, 1.5, 0.25], [3.5, 1.0, 0.5]] {
+            let [x, y, z] = place;
+            for edge in [Edge::Held, Edge::Fading] {
+                assert_eq!(grid.sample(f, &place, edge), function(x, y, z), "{place:?}");
+            }
+        }
+        assert!(grid.sample(f, &[1.0, 1.0], Edge::Held).is_nan());
+    }
+
+    #[test]
+    fn beyond_the_outermost_centres_samples_hold_or_fade() {
+        let grid = linear();
+        let f = &grid.channels[0];
+        let at = |x: f64, edge| grid.sample(f, &[x, 3.0, 0.5], edge);
+        let outermost = function(0.5, 3.0, 0.5);
+        assert_eq!([at(0.25, Edge::Held), at(0.25, Edge::Fading)], [outermost, 0.75 * outermost]);
+        assert_eq!([at(-0.25, Edge::Held), at(-0.25, Edge::Fading)], [0.0, 0.25 * outermost]);
+        assert_eq!([at(-0.5, Edge::Held), at(-0.5, Edge::Fading)], [0.0; 2]);
+        assert!(at(f64::NAN, Edge::Fading).is_nan());
+    }
+
+    #[test]
+    fn texels_are_found_by_their_indices() {
+        let grid = linear();
+        let values = &grid.channels[0].values;
+        for (index, value) in values.iter().enumerate() {
+            assert_eq!(grid.at("f", &grid.texel(index)), Some(*value));
+        }
+        assert_eq!(
+            [grid.at("f", &[4, 0, 0]), grid.at("f", &[0, 0]), grid.at("g", &[0; 3])],
+            [None; 3]
+        );
+        let table = grid.to_table();
+        assert_eq!(table.names(), ["x", "y", "z", "f"]);
+        let row = |i: usize| -> Vec<f64> { table.columns.iter().map(|c| c.values[i]).collect() };
+        assert_eq!(row(4 + 12), [0.5, 3.0, 0.5, function(0.5, 3.0, 0.5)]);
+    }
+
+    #[test]
+    fn the_dimension_is_checked_and_faults_name_the_texel() {
+        let mut grid = linear();
+        let message = grid.check_plane().expect_err("three axes").to_string();
+        assert!(message.contains("made: 3 axes, expected 2"), "{message}");
+        grid.channels[0].values[17] = f32::INFINITY;
+        let message = grid.check().expect_err("infinite").to_string();
+        assert!(message.contains("texel (1, 1, 1)"), "{message}");
+        grid.axes.clear();
+        assert!(grid.check().is_err() && (grid.x().count, grid.y().count) == (1, 1));
     }
 }

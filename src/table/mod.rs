@@ -2,7 +2,7 @@
 //!
 //! [`Table`] is the common shape of everything that is fitted to, compared with or written out:
 //! columns of numbers, read from CSV ([`Table::read_csv`]). [`Grid`] is the regular
-//! two-dimensional one, kept as EXR with a sidecar for its axes. [`provenance::Provenance`] says
+//! one, of any dimension, kept as EXR with a sidecar for its axes. [`provenance::Provenance`] says
 //! where the files of a data set come from. Units are a closed list ([`units`]).
 
 mod axis;
@@ -21,7 +21,7 @@ pub use self::exr::{MAX_PIXEL_BYTES, sidecar_path};
 pub(crate) use self::exr::{
     decode as decode_exr, encode as encode_exr, encode_half as encode_half_exr,
 };
-pub use self::grid::{Channel, Grid};
+pub use self::grid::{Channel, Edge, Grid, centres};
 
 /// A column of numbers.
 #[derive(Debug, Clone, PartialEq)]

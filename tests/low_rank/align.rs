@@ -60,7 +60,7 @@ fn straightening_brings_a_turned_pattern_to_rank_one() {
     let min = straight.channels.iter().flat_map(|c| &c.values).copied().fold(0.0f32, f32::min);
     assert!(min >= 0.0, "resampling keeps a table from going below zero");
     let kernel = Decomposition::of_aligned(&straight, found.alignment).expect("finite");
-    let back = kernel.low_rank(1).expect("rank 1").to_grid(&table.x, &table.y).expect("finite");
+    let back = kernel.low_rank(1).expect("rank 1").to_grid(table.x(), table.y()).expect("finite");
     let (mut difference, mut whole) = (0.0, 0.0);
     for (a, b) in table.channels[0].values.iter().zip(&back.channels[0].values) {
         difference += f64::from(a - b).powi(2);
@@ -79,7 +79,7 @@ fn an_alignment_is_what_it_says() {
     assert!(close(alignment.apply([1.9f64.cos(), 1.9f64.sin()]), [0.0, 1.0]));
     assert!(close(alignment.angles_rad(), [0.2, 1.9]));
     let there = alignment.apply([0.3, -0.4]);
-    let back = alignment.inverse().map(|row| row[0] * there[0] + row[1] * there[1]);
+    let back = alignment.inverse().apply(there);
     assert!(close(back, [0.3, -0.4]));
     let text = alignment.to_toml().expect("numbers");
     assert_eq!(Alignment::from_toml("a.toml", &text).expect("its own text"), alignment);
@@ -122,7 +122,7 @@ fn what_has_no_directions_is_refused() {
     let options = SearchOptions { channel: Some("X".into()), ..options };
     assert!(main_directions(&table, &options).expect_err("no X").to_string().contains("R, G, B"));
     let mut beside = table;
-    (beside.x.from, beside.x.to) = (0.1, 0.8);
+    (beside.axes[0].from, beside.axes[0].to) = (0.1, 0.8);
     let error = main_directions(&beside, &SearchOptions::default()).expect_err("no centre");
     assert!(error.to_string().contains("h = 0"), "{error}");
 }

@@ -15,7 +15,7 @@ fn degrees(angles: [f64; 2]) -> [f64; 2] {
 
 fn norm(environment: Environment, table: &Grid, seed: u64) -> ConvolutionNorm {
     let options = NormOptions { seed, ..NormOptions::default() };
-    ConvolutionNorm::from_environments(&[environment], &table.x, &table.y, &options)
+    ConvolutionNorm::from_environments(&[environment], table.x(), table.y(), &options)
         .expect("a lit environment")
 }
 
@@ -81,7 +81,7 @@ fn under_points_of_light_there_is_little_to_gain() {
 #[test]
 fn a_point_light_weighs_errors_as_frobenius_does() {
     let t = holographic(32, 1);
-    let norm = ConvolutionNorm::point_light(&t.x, &t.y);
+    let norm = ConvolutionNorm::point_light(t.x(), t.y());
     let svd = Decomposition::of(&t).expect("finite").low_rank(3).expect("rank 3");
     let (seen, direct) =
         (norm.relative_errors(&t, &svd).expect("same"), svd.relative_errors(&t).expect("same"));
@@ -129,7 +129,7 @@ fn the_norm_is_the_autocorrelation_of_the_light() {
 fn environments_that_cannot_weigh_are_refused() {
     let t = cross(16, degrees([0.0, 90.0]));
     let refused = |environments: &[Environment], options: NormOptions| {
-        match ConvolutionNorm::from_environments(environments, &t.x, &t.y, &options) {
+        match ConvolutionNorm::from_environments(environments, t.x(), t.y(), &options) {
             Ok(_) => panic!("not refused"),
             Err(error) => error.to_string(),
         }
@@ -146,7 +146,7 @@ fn environments_that_cannot_weigh_are_refused() {
     assert!(
         refused(&[windows(1)], NormOptions { orientations: 0, ..options }).contains("orientations")
     );
-    let small = ConvolutionNorm::point_light(&t.x, &t.y);
+    let small = ConvolutionNorm::point_light(t.x(), t.y());
     let other = cross(20, degrees([0.0, 90.0]));
     let error = convolved(&other, Alignment::identity(), 1, &small, &ConvolvedOptions::default());
     assert!(matches!(error, Err(LowRankError::Mismatch { .. })));

@@ -11,7 +11,7 @@ fn direct_error(table: &Grid, kernel: &LowRank, channel: usize) -> f64 {
     let factors = &kernel.channels[channel];
     let (mut error, mut whole) = (0.0, 0.0);
     for (index, value) in values.iter().enumerate() {
-        let (ix, iy) = (index % table.x.count, index / table.x.count);
+        let (ix, iy) = (index % table.x().count, index / table.x().count);
         let terms = factors.vertical.iter().zip(&factors.horizontal);
         let sum: f64 = terms.map(|(v, h)| v[iy] * h[ix]).sum();
         error += (f64::from(*value) - sum).powi(2);

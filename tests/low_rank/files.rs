@@ -7,7 +7,7 @@ use super::tables::display;
 
 fn kernel() -> LowRank {
     let mut table = display(24, [0.1, 1.6], 8.0);
-    table.y.count = 12;
+    table.axes[1].count = 12;
     for channel in &mut table.channels {
         channel.values.truncate(24 * 12);
     }

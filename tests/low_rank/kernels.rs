@@ -11,19 +11,19 @@ fn spacing(axis: &striae::table::Axis) -> f64 {
 
 fn energy(grid: &Grid, channel: usize) -> f64 {
     let sum: f64 = grid.channels[channel].values.iter().map(|v| f64::from(*v)).sum();
-    sum * spacing(&grid.x) * spacing(&grid.y)
+    sum * spacing(grid.x()) * spacing(grid.y())
 }
 
 #[test]
 fn a_kernel_is_its_table_at_the_texels_and_linear_between() {
     let t = display(20, [0.1, 1.6], 8.0);
     let kernel = Decomposition::of(&t).expect("finite").low_rank(20).expect("full rank");
-    let (x, y) = (t.x.centre(7), t.y.centre(3));
+    let (x, y) = (t.x().centre(7), t.y().centre(3));
     let at = |ix: usize, iy: usize| f64::from(t.channels[0].values[iy * 20 + ix]);
     assert!((kernel.evaluate(0, [x, y]) - at(7, 3)).abs() < 1e-12);
-    let middle = 0.5 * (x + t.x.centre(8));
+    let middle = 0.5 * (x + t.x().centre(8));
     assert!((kernel.evaluate(0, [middle, y]) - 0.5 * (at(7, 3) + at(8, 3))).abs() < 1e-12);
-    let edge = t.x.to - 1e-9;
+    let edge = t.x().to - 1e-9;
     assert!((kernel.evaluate(0, [edge, y]) - at(19, 3)).abs() < 1e-12, "constant to the edge");
     for outside in [[0.36, 0.0], [0.0, -0.36], [f64::NAN, 0.0]] {
         assert_eq!(kernel.evaluate(0, outside), 0.0);
@@ -32,7 +32,7 @@ fn a_kernel_is_its_table_at_the_texels_and_linear_between() {
     let first = kernel.truncated(1);
     assert_eq!((first.rank(), kernel.rank()), (1, 20));
     assert_eq!(first, Decomposition::of(&t).expect("finite").low_rank(1).expect("rank 1"));
-    let grid = kernel.to_grid(&t.x, &t.y).expect("finite");
+    let grid = kernel.to_grid(t.x(), t.y()).expect("finite");
     let same = grid.channels[2].values.iter().zip(&t.channels[2].values);
     assert!(same.into_iter().all(|(a, b)| (a - b).abs() < 1e-6));
 }
@@ -97,7 +97,7 @@ fn one_line_integrates_across_and_the_drawing_keeps_its_energy() {
             assert!((value - (-20.0 * s * s).exp()).abs() < 1e-6, "{s}: {value}");
         }
     }
-    let picture = drawn(&lines.kernels, &t.x, &t.y).expect("finite");
+    let picture = drawn(&lines.kernels, t.x(), t.y()).expect("finite");
     let part = energy(&picture, 0) / energy(&t, 0);
     assert!((part - 1.0).abs() < 1e-6, "{part}");
     assert!(directional(&t, &[], 1.0).is_err());

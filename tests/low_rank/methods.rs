@@ -52,7 +52,7 @@ fn shared_factors_are_never_better_than_one_decomposition_per_channel() {
 #[test]
 fn weighted_factors_are_better_under_their_weight() {
     let t = disc(64, 0.5);
-    let weight = Weight::of_incidence(&t.x, &t.y, &STRAIGHT());
+    let weight = Weight::of_incidence(t.x(), t.y(), &STRAIGHT());
     let mut gains = Vec::new();
     for rank in [1, 3] {
         let fitted = weighted(&t, STRAIGHT(), rank, &weight, Stopping::default()).expect("fits");
@@ -70,10 +70,10 @@ fn weighted_factors_are_better_under_their_weight() {
     assert!(most > 0.004, "{gains:?}");
     // A weight that leaves out the specular lobe, which takes the decomposition's first term.
     let t = cross(64, [0.1, 1.6]);
-    let (xs, ys) = (t.x.centres(), t.y.centres());
+    let (xs, ys) = (t.x().centres(), t.y().centres());
     let outside = |x: f64, y: f64| if x.hypot(y) < 0.04 { 0.0 } else { 1.0 };
     let values = ys.iter().flat_map(|y| xs.iter().map(move |x| outside(*x, *y))).collect();
-    let weight = Weight::new(&t.x, &t.y, values).expect("a weight");
+    let weight = Weight::new(t.x(), t.y(), values).expect("a weight");
     let fitted = weighted(&t, STRAIGHT(), 1, &weight, Stopping::default()).expect("fits");
     let svd = Decomposition::of(&t).expect("finite").low_rank(1).expect("rank 1");
     let green = |kernel| weight.relative_errors(&t, kernel).expect("same")[1];
@@ -85,7 +85,7 @@ fn weighted_factors_are_better_under_their_weight() {
 #[test]
 fn a_weight_of_one_gives_the_decomposition_and_texels_without_weight_do_not_count() {
     let t = noisy(cross(24, [0.1, 1.5]), 0.1, 1);
-    let one = Weight::new(&t.x, &t.y, vec![1.0; 24 * 24]).expect("a weight");
+    let one = Weight::new(t.x(), t.y(), vec![1.0; 24 * 24]).expect("a weight");
     let fitted = weighted(&t, STRAIGHT(), 2, &one, Stopping::default()).expect("fits");
     let svd = Decomposition::of(&t).expect("finite").low_rank(2).expect("rank 2");
     let (a, b) =
@@ -96,14 +96,17 @@ fn a_weight_of_one_gives_the_decomposition_and_texels_without_weight_do_not_coun
     spoilt.channels[0].values[4] = 100.0;
     let mut values = vec![1.0; 9];
     values[4] = 0.0;
-    let weight = Weight::new(&spoilt.x, &spoilt.y, values).expect("a weight");
+    let weight = Weight::new(spoilt.x(), spoilt.y(), values).expect("a weight");
     let stopping = Stopping { sweeps: 5000, decrease: 1e-12 };
     let fitted = weighted(&spoilt, STRAIGHT(), 1, &weight, stopping).expect("fits");
     let filled = fitted.product().expect("finite").channels[0].values[4];
     assert!((filled - 4.0).abs() < 1e-4, "{filled}");
-    assert!(matches!(Weight::new(&t.x, &t.y, vec![1.0]), Err(LowRankError::Mismatch { .. })));
-    assert!(matches!(Weight::new(&t.x, &t.y, vec![-1.0; 576]), Err(LowRankError::Setting { .. })));
-    let other = Weight::new(&spoilt.x, &spoilt.y, vec![1.0; 9]).expect("a weight");
+    assert!(matches!(Weight::new(t.x(), t.y(), vec![1.0]), Err(LowRankError::Mismatch { .. })));
+    assert!(matches!(
+        Weight::new(t.x(), t.y(), vec![-1.0; 576]),
+        Err(LowRankError::Setting { .. })
+    ));
+    let other = Weight::new(spoilt.x(), spoilt.y(), vec![1.0; 9]).expect("a weight");
     assert!(weighted(&t, STRAIGHT(), 1, &other, Stopping::default()).is_err());
 }
 
@@ -137,7 +140,7 @@ fn nonnegative_factors_are_not_negative_and_cost_nothing_at_rank_one() {
 fn a_channel_that_is_zero_gets_zero_factors_from_every_method() {
     let mut t = display(20, [0.1, 1.6], 8.0);
     t.channels[1].values.fill(0.0);
-    let weight = Weight::of_incidence(&t.x, &t.y, &STRAIGHT());
+    let weight = Weight::of_incidence(t.x(), t.y(), &STRAIGHT());
     let stopping = Stopping::default();
     for kernel in [
         shared(&t, STRAIGHT(), 2, stopping).expect("fits").low_rank,

@@ -19,14 +19,14 @@ pub(crate) fn table(n: usize, half: f64, value: impl Fn(f64, f64) -> [f64; 3]) -
         values: texels.iter().map(|t| t[k] as f32).collect(),
     };
     let channels = ["R", "G", "B"].into_iter().enumerate().map(channel).collect();
-    Grid { x, y, channels, origin: "made by formula".into() }
+    Grid { axes: vec![x, y], channels, origin: "made by formula".into() }
 }
 
 /// One channel, from its rows.
 pub(crate) fn rows(rows: &[&[f32]]) -> Grid {
     let mut grid = table(1, 0.5, |_, _| [0.0; 3]);
-    grid.x.count = rows[0].len();
-    grid.y.count = rows.len();
+    grid.axes[0].count = rows[0].len();
+    grid.axes[1].count = rows.len();
     grid.channels = vec![Channel { name: "Y".into(), unit: "1".into(), values: rows.concat() }];
     grid
 }

@@ -32,7 +32,7 @@ fn smooth_map(height: usize) -> Result<Environment, MeasuredError> {
         Environment::new(2 * height, height, vec![[1.0; 3]; 2 * height * height], "smooth")?;
     let texel = |at: usize| {
         let (i, j) = ((at % (2 * height)) as f64, (at / (2 * height)) as f64);
-        smooth(blank.direction(i + 0.5, j + 0.5)).map(|v| v as f32)
+        smooth(blank.layout().direction(i + 0.5, j + 0.5)).map(|v| v as f32)
     };
     let radiance = (0..2 * height * height).map(texel).collect();
     Environment::new(2 * height, height, radiance, "smooth")
@@ -65,18 +65,18 @@ fn directions_and_coordinates_are_inverse() -> Outcome {
     let map = random_map(8)?;
     let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-15);
     // Azimuth 0 at the left edge, +y a quarter of the way around, the zenith at the top.
-    assert!(near(map.direction(0.0, 4.0), [1.0, 0.0, 0.0]));
-    assert!(near(map.direction(4.0, 4.0), [0.0, 1.0, 0.0]));
-    assert!(near(map.direction(3.0, 0.0), [0.0, 0.0, 1.0]));
+    assert!(near(map.layout().direction(0.0, 4.0), [1.0, 0.0, 0.0]));
+    assert!(near(map.layout().direction(4.0, 4.0), [0.0, 1.0, 0.0]));
+    assert!(near(map.layout().direction(3.0, 0.0), [0.0, 0.0, 1.0]));
     let mut random = ChaCha8Rng::seed_from_u64(1);
     for _ in 0..1000 {
         let (x, y) = (16.0 * uniform(&mut random), 8.0 * uniform(&mut random));
-        let direction = map.direction(x, y).map(|c| 3.0 * c);
-        let (got_x, got_y) = map.coordinates(direction);
+        let direction = map.layout().direction(x, y).map(|c| 3.0 * c);
+        let (got_x, got_y) = map.layout().coordinates(direction);
         // Measured: 1.8e-15.
         assert!((got_x - x).abs() < 1e-13 && (got_y - y).abs() < 1e-13, "{x} {y}: {got_x} {got_y}");
     }
-    let (x, _) = map.coordinates([1.0, -1e-300, 0.0]);
+    let (x, _) = map.layout().coordinates([1.0, -1e-300, 0.0]);
     assert!((0.0..16.0).contains(&x), "{x}");
     Ok(())
 }
@@ -85,7 +85,7 @@ fn directions_and_coordinates_are_inverse() -> Outcome {
 fn radiance_is_bilinear_around_and_over_the_poles() -> Outcome {
     let map = random_map(8)?;
     let texel = |i: usize, j: usize| map.radiance[j * 16 + i].map(f64::from);
-    let at = |x: f64, y: f64| map.radiance(map.direction(x, y));
+    let at = |x: f64, y: f64| map.radiance(map.layout().direction(x, y));
     let mean =
         |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { std::array::from_fn(|c| 0.5 * (a[c] + b[c])) };
     for (i, j) in [(0, 0), (15, 7), (7, 3), (3, 7)] {
@@ -96,7 +96,7 @@ fn radiance_is_bilinear_around_and_over_the_poles() -> Outcome {
     assert!(relative(at(0.0, 4.5), mean(texel(15, 4), texel(0, 4))) < 1e-10, "around");
     // At a pole two texels that face each other count alike, from whatever side it is reached.
     let zenith = map.radiance([1e-12, 3e-13, 1.0]);
-    let (x, _) = map.coordinates([1e-12, 3e-13, 1.0]);
+    let (x, _) = map.layout().coordinates([1e-12, 3e-13, 1.0]);
     let i = x as usize;
     let u = x - 0.5 - (x - 0.5).floor();
     let (left, right) = ((x - 0.5).floor() as i64, (x - 0.5).floor() as i64 + 1);

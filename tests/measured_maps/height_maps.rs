@@ -42,8 +42,7 @@ fn grid() -> Grid {
         values: values.to_vec(),
     };
     Grid {
-        x: axis("x", "mm", 0.003, 3),
-        y: axis("y", "um", 5.0, 2),
+        axes: vec![axis("x", "mm", 0.003, 3), axis("y", "um", 5.0, 2)],
         channels: vec![
             channel("height", "um", &[0.0, 0.5, 1.0, 1.5, 2.0, -0.25]),
             channel("valid", "1", &[1.0, 1.0, 0.0, 1.0, 1.0, 1.0]),
@@ -183,8 +182,8 @@ fn wrong_grids_are_refused() {
     };
     refused(|g| g.channels[0].name = "z".into(), &["g.exr", "\"height\"", "z, valid"]);
     refused(|g| g.channels[0].unit = "rad".into(), &["g.exr", "height", "length", "rad"]);
-    refused(|g| g.x.unit = "deg".into(), &["g.exr", "x", "length", "deg"]);
-    refused(|g| g.y.to = -5.0, &["g.exr", "dy_um is -2.5", "positive"]);
+    refused(|g| g.axes[0].unit = "deg".into(), &["g.exr", "x", "length", "deg"]);
+    refused(|g| g.axes[1].to = -5.0, &["g.exr", "dy_um is -2.5", "positive"]);
     refused(|g| g.channels[1].unit = "nm".into(), &["g.exr", "valid", "pure number"]);
     refused(|g| g.channels[1].values[4] = 0.5, &["1 of 6", "`valid`", "column 1, row 1", "0.5"]);
     refused(|g| g.channels[0].unit = "mm".into(), &["g.exr", "nm", "lateral size"]);

@@ -23,7 +23,7 @@ pub(crate) fn grid() -> Grid {
     };
     let channels =
         vec![channel("s", "1", 0.3), channel("p", "1", 0.7), channel("intensity", "sr^-1", 1.1)];
-    Grid { x, y, channels, origin: "made".into() }
+    Grid { axes: vec![x, y], channels, origin: "made".into() }
 }
 
 fn refusal(pixels: &[u8], sidecar: &str) -> String {
@@ -50,15 +50,15 @@ fn a_grid_reads_back_as_it_was_written() -> Result<(), Box<dyn std::error::Error
 #[test]
 fn texels_stand_for_their_centres() {
     let grid = grid();
-    assert_eq!(grid.y.centres(), [670.0, 610.0, 550.0, 490.0, 430.0]);
-    assert_eq!(grid.x.centre(3), 0.5);
-    for i in 0..grid.x.count {
-        assert!((grid.x.texel(grid.x.centre(i)) - i as f64).abs() < 1e-14);
+    assert_eq!(grid.y().centres(), [670.0, 610.0, 550.0, 490.0, 430.0]);
+    assert_eq!(grid.x().centre(3), 0.5);
+    for i in 0..grid.x().count {
+        assert!((grid.x().texel(grid.x().centre(i)) - i as f64).abs() < 1e-14);
     }
-    assert_eq!(grid.x.texel(0.0), -0.5);
+    assert_eq!(grid.x().texel(0.0), -0.5);
     let p = &grid.channels[1].values;
-    assert_eq!(grid.at("p", 2, 3), Some(p[3 * 7 + 2]));
-    assert_eq!([grid.at("p", 7, 0), grid.at("p", 0, 5), grid.at("q", 0, 0)], [None; 3]);
+    assert_eq!(grid.at("p", &[2, 3]), Some(p[3 * 7 + 2]));
+    assert_eq!([grid.at("p", &[7, 0]), grid.at("p", &[0, 5]), grid.at("q", &[0, 0])], [None; 3]);
 }
 
 #[test]
@@ -131,4 +131,39 @@ fn a_header_that_asks_for_too_much_is_refused_before_memory_is() -> Result<(), T
 #[test]
 fn the_sidecar_stands_beside_the_file() {
     assert_eq!(sidecar_path(Path::new("a/b.exr")), Path::new("a/b.exr.axes.toml"));
+}
+
+#[test]
+fn grids_of_any_dimension_read_back() -> Result<(), Box<dyn std::error::Error>> {
+    let axes = [
+        Axis::new("mu", "1", [0.0, 1.0], 3),
+        Axis::new("roughness", "1", [1.0, 0.0], 2),
+        Axis::new("wavelength", "nm", [400.0, 700.0], 4),
+        Axis::new("angle", "rad", [-1.0, 1.0], 5),
+    ];
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("g.exr");
+    for dimension in 1..=axes.len() {
+        let axes = axes[..dimension].to_vec();
+        let texels: usize = axes.iter().map(|axis| axis.count).product();
+        let values: Vec<f32> = (0..texels).map(|i| (i as f32).sqrt()).collect();
+        let written = Grid::new(axes, vec![Channel::new("f", "sr^-1", values)], "made")?;
+        written.write_exr(&path)?;
+        let read = Grid::read_exr(&path)?;
+        assert_eq!(Grid { origin: written.origin.clone(), ..read }, written);
+        let (_, sidecar) = written.to_exr()?;
+        assert_eq!(sidecar.matches("[[axis]]").count(), dimension.saturating_sub(2), "{sidecar}");
+    }
+    // Planes of 3 × 2 texels below each other, the last axis slowest.
+    let read = Grid::read_exr(&path)?;
+    assert_eq!(read.at("f", &[2, 1, 3, 4]), read.channels[0].values.last().copied());
+    assert_eq!(read.at("f", &[0, 0, 1, 0]), Some(6f32.sqrt()));
+
+    let (pixels, sidecar) = read.to_exr()?;
+    assert_says(&refusal(&pixels, &sidecar.replace("[y]", "[[axis]]")), &["axes.toml", "[y]"]);
+    let longer = sidecar.replace("count = 5", "count = 6");
+    assert_says(&refusal(&pixels, &longer), &["axes.toml", "3 × 48", "3 × 40"]);
+    let mile = sidecar.replace("unit = \"rad\"", "unit = \"mile\"");
+    assert_says(&refusal(&pixels, &mile), &["axes.toml", "angle", "mile"]);
+    Ok(())
 }

@@ -52,7 +52,7 @@ fn triangular(t: f64) -> f64 {
 }
 
 fn overlaps(cells: Cells, texels: &Axis) -> Vec<Overlap> {
-    let width = (texels.to - texels.from) / texels.count as f64;
+    let width = texels.step();
     let coarser = cells.pitch > width * (1.0 + 1e-9);
     let below = if coarser { triangular } else { uniform };
     let overlap = |i: usize| {
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     fn axis(half: f64, count: usize) -> Axis {
-        Axis { name: "h_x".into(), unit: "1".into(), from: -half, to: half, count }
+        Axis::new("h_x", "1", [-half, half], count)
     }
 
     #[test]

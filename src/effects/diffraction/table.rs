@@ -80,13 +80,7 @@ struct Share {
 impl TableShape {
     /// The axes, in increasing h.
     pub fn axes(&self) -> [Axis; 2] {
-        let axis = |name: &str, count| Axis {
-            name: name.into(),
-            unit: "1".into(),
-            from: -self.extent,
-            to: self.extent,
-            count,
-        };
+        let axis = |name, count| Axis::new(name, "1", [-self.extent, self.extent], count);
         [axis("h_x", self.size[0]), axis("h_y", self.size[1])]
     }
 
@@ -214,17 +208,19 @@ fn assembled(
     let texels = x.count * y.count;
     let area = 4.0 * shape.extent * shape.extent / texels as f64;
     let mut table = DiffractionTable {
-        grid: Grid { x, y, channels: Vec::new(), origin: format!("diffraction of {origin}") },
+        grid: Grid {
+            axes: vec![x, y],
+            channels: Vec::new(),
+            origin: format!("diffraction of {origin}"),
+        },
         wavelengths_nm: shape.wavelengths_nm.clone(),
         total: Vec::new(),
         inside: Vec::new(),
         evanescent: Vec::new(),
     };
     let mut rgb = vec![vec![0.0; texels]; 3];
-    let channel = |name: String, values: &[f64]| Channel {
-        name,
-        unit: "sr^-1".into(),
-        values: values.iter().map(|p| (p / area) as f32).collect(),
+    let channel = |name: String, values: &[f64]| {
+        Channel::new(name, "sr^-1", values.iter().map(|p| (p / area) as f32).collect())
     };
     for (batch, wavelengths) in shape.wavelengths_nm.chunks(BATCH).enumerate() {
         let shares: Vec<Share> = wavelengths.par_iter().map(|w| share(*w)).collect();

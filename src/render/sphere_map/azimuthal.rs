@@ -13,6 +13,7 @@ use rustfft::num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
 
 use super::{SphereMap, Taps};
+use crate::measured::environment::LatLong;
 
 /// A list of taps as weights between rows, per channel transformed along azimuth.
 pub struct AzimuthalOperator {
@@ -40,7 +41,7 @@ impl AzimuthalOperator {
         let spectra = rows
             .into_par_iter()
             .map(|row| {
-                let mut weights = row_weights(taps, row, width, height);
+                let mut weights = row_weights(taps, row, LatLong { width, height });
                 for channel in &mut weights {
                     // Whole rows, one after the other.
                     forward.process(channel);
@@ -92,7 +93,8 @@ impl AzimuthalOperator {
 }
 
 /// Weights of every texel, relative to the column of a texel in `row`, per channel.
-fn row_weights(taps: &Taps, row: usize, width: usize, height: usize) -> [Vec<Complex64>; 3] {
+fn row_weights(taps: &Taps, row: usize, layout: LatLong) -> [Vec<Complex64>; 3] {
+    let LatLong { width, height } = layout;
     let mut weights = [0, 1, 2].map(|_| vec![Complex64::default(); width * height]);
     let (sin, cos) = (PI * (row as f64 + 0.5) / height as f64).sin_cos();
     for ([east, north, outwards], weight) in taps.iter() {
@@ -101,36 +103,15 @@ fn row_weights(taps: &Taps, row: usize, width: usize, height: usize) -> [Vec<Com
         }
         // In the frame of azimuth 0: east is y, north (−cos θ, 0, sin θ), outwards (sin θ, 0, cos θ).
         let (x, y, z) = (outwards * sin - north * cos, east, outwards * cos + north * sin);
-        let column = y.atan2(x) * width as f64 / (2.0 * PI);
-        let line = x.hypot(y).atan2(z) * height as f64 / PI - 0.5;
-        let (left, top) = (column.floor(), line.floor());
-        let (u, v) = (column - left, line - top);
-        for (dx, dy, share) in [
-            (0, 0, (1.0 - u) * (1.0 - v)),
-            (1, 0, u * (1.0 - v)),
-            (0, 1, (1.0 - u) * v),
-            (1, 1, u * v),
-        ] {
-            let at = place(left as i64 + dx, top as i64 + dy, width, height);
+        let (column, line) = layout.unwrapped([x, y, z]);
+        // Relative to a column, so that the column of a texel's centre is whole.
+        for (at, share) in layout.between(column, line - 0.5) {
             for (channel, weight) in weights.iter_mut().zip(weight) {
                 channel[at].re += weight * share;
             }
         }
     }
     weights
-}
-
-/// Index of a texel; beyond a pole it goes on down the other side.
-fn place(column: i64, row: i64, width: usize, height: usize) -> usize {
-    let (w, h) = (width as i64, height as i64);
-    let (column, row) = if row < 0 {
-        (column + w / 2, -1 - row)
-    } else if row >= h {
-        (column + w / 2, 2 * h - 1 - row)
-    } else {
-        (column, row)
-    };
-    (row.clamp(0, h - 1) * w + column.rem_euclid(w)) as usize
 }
 
 #[cfg(test)]

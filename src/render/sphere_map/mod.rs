@@ -45,7 +45,7 @@ pub(in crate::render) use passes::kernel;
 pub use passes::{TimedPass, convolved, looked_up, turned};
 pub use taps::Taps;
 
-use crate::measured::environment::Environment;
+use crate::measured::environment::{Environment, LatLong};
 
 /// R, G, B over the sphere, laid out as an [`Environment`]; values may be negative.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +69,23 @@ impl From<&Environment> for SphereMap {
 }
 
 impl SphereMap {
+    /// How its texels lie over the sphere.
+    pub fn layout(&self) -> LatLong {
+        LatLong { width: self.width, height: self.height }
+    }
+
+    /// R, G, B in a direction of any length but 0, in f64: bilinear ([`LatLong::around`]).
+    pub fn bilinear(&self, direction: [f64; 3]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (texel, share) in self.layout().around(direction) {
+            let texel = self.rgb.get(3 * texel..).unwrap_or_default();
+            for (sum, value) in sum.iter_mut().zip(texel) {
+                *sum += share * f64::from(*value);
+            }
+        }
+        sum
+    }
+
     /// Columns of the texels' places, `first` and `layer` as [`passes`] take them.
     fn places(&self) -> [Vec<f32>; 2] {
         let texels = 0..self.width * self.height;

@@ -1,7 +1,5 @@
 //! Eq. 3 of toisoul2017 in f64: the reference of what is summed on the device.
 
-use std::f64::consts::PI;
-
 use rayon::prelude::*;
 
 use super::shape::Point;
@@ -33,33 +31,9 @@ fn integral(map: &SphereMap, point: &Point, taps: &Taps) -> [f64; 3] {
         let cosine = mu_o * mu_i - mirror[0] * u - mirror[1] * v;
         let factor = 0.25 * (1.0 + cosine) * (1.0 + cosine) / mu_o * per_mu;
         let incident = point.along * u + beside * v + point.normal * mu_i;
-        let radiance = looked_up(map, [incident.x, incident.y, incident.z]);
+        let radiance = map.bilinear(incident.into());
         for ((sum, weight), radiance) in sum.iter_mut().zip(weight).zip(radiance) {
             *sum += weight * factor * radiance;
-        }
-    }
-    sum
-}
-
-/// Bilinear between texel centres; beyond a pole it goes on down the other side.
-fn looked_up(map: &SphereMap, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    let (width, height) = (map.width as i64, map.height as i64);
-    let column = y.atan2(x) * width as f64 / (2.0 * PI) - 0.5;
-    let row = x.hypot(y).atan2(z) * height as f64 / PI - 0.5;
-    let (left, top) = (column.floor(), row.floor());
-    let (u, v) = (column - left, row - top);
-    let mut sum = [0.0; 3];
-    for (dx, dy, share) in
-        [(0, 0, (1.0 - u) * (1.0 - v)), (1, 0, u * (1.0 - v)), (0, 1, (1.0 - u) * v), (1, 1, u * v)]
-    {
-        let (mut column, mut row) = (left as i64 + dx, top as i64 + dy);
-        if row < 0 || row >= height {
-            row = if row < 0 { -1 - row } else { 2 * height - 1 - row };
-            column += width / 2;
-        }
-        let at = 3 * (row * width + column.rem_euclid(width)) as usize;
-        for (sum, value) in sum.iter_mut().zip(map.rgb.get(at..at + 3).unwrap_or_default()) {
-            *sum += share * f64::from(*value);
         }
     }
     sum

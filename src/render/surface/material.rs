@@ -9,7 +9,7 @@ use crate::measured::environment::Environment;
 use crate::measured::spectra::Spectra;
 use crate::render::RenderError;
 use crate::render::sphere_map::{AngularKernel, Taps};
-use crate::table::{Axis, Grid};
+use crate::table::Grid;
 
 use super::scene::{Factors, SurfaceScene, TableSource};
 use super::sums::{line_taps, table_taps};
@@ -65,7 +65,7 @@ impl Material {
         }
         let grid = &self.kernel.grid;
         let options = NormOptions { alignment: self.alignment, ..NormOptions::default() };
-        let norm = ConvolutionNorm::from_environments(&self.seen, &grid.x, &grid.y, &options)?;
+        let norm = ConvolutionNorm::from_environments(&self.seen, grid.x(), grid.y(), &options)?;
         let fitted = convolved(grid, self.alignment, rank, &norm, &ConvolvedOptions::default())?;
         Ok(fitted.0)
     }
@@ -76,11 +76,11 @@ impl Material {
     /// As [`directional`].
     pub fn blurs(&self) -> Result<Taps, RenderError> {
         let axes = [[1.0, 0.0], [0.0, 1.0]];
-        let width = LINE_HALF_WIDTH * step(&self.kernel.grid.x);
+        let width = LINE_HALF_WIDTH * self.kernel.grid.x().step().abs();
         let lines = directional(&self.kernel.grid, &axes, width)?;
         let mut taps = Taps::default();
         for (kernel, direction) in lines.kernels.iter().zip(self.kernel.directions) {
-            let step = step(&kernel.axis);
+            let step = kernel.axis.step().abs();
             for at in 0..kernel.axis.count {
                 let (sin, cos) = kernel.axis.centre(at).sin_cos();
                 let weight = [0, 1, 2].map(|channel| {
@@ -108,13 +108,9 @@ impl Material {
     /// [`RenderError::LowRank`]: a rank above that of the table.
     pub fn reconstructed(&self, rank: usize) -> Result<Taps, RenderError> {
         let factors = Decomposition::of(&self.table)?.low_rank(rank)?;
-        let taps = table_taps(&factors.to_grid(&self.table.x, &self.table.y)?);
+        let taps = table_taps(&factors.to_grid(self.table.x(), self.table.y())?);
         Ok(taps.thinned(LEFT_OUT).0)
     }
-}
-
-fn step(axis: &Axis) -> f64 {
-    ((axis.to - axis.from) / axis.count as f64).abs()
 }
 
 /// Reads or simulates a table and checks its axes and channels.
@@ -130,7 +126,8 @@ fn table(source: &TableSource, spectra: &Spectra) -> Result<Grid, RenderError> {
             diffraction::simulated_table(&settings, spectra).map_err(|error| refused(&error))?
         }
     };
-    for (axis, name) in [(&grid.x, "h_x"), (&grid.y, "h_y")] {
+    grid.check_plane().map_err(crate::measured::MeasuredError::from)?;
+    for (axis, name) in [(grid.x(), "h_x"), (grid.y(), "h_y")] {
         if axis.name != name || axis.unit != "1" {
             return Err(RenderError::Simulation(format!(
                 "{}: expected an axis {name} [1], got {} [{}]",

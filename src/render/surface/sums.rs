@@ -6,7 +6,7 @@ use crate::render::RenderError;
 use crate::render::backend::{Backend, Painter};
 use crate::render::kernel::Kernel;
 use crate::render::sphere_map::{SphereMap, Taps, TimedPass};
-use crate::table::{Axis, Grid};
+use crate::table::{Grid, centres};
 
 /// The text of the kernel: lookups in maps, and the sum.
 const TEXT: &str =
@@ -18,19 +18,15 @@ const MOST_TAPS: usize = 1024;
 
 /// One tap per cell of a table with channels R, G, B.
 pub fn table_taps(grid: &Grid) -> Taps {
-    let step = |axis: &Axis| ((axis.to - axis.from) / axis.count as f64).abs();
-    let (dx, dy) = (step(&grid.x), step(&grid.y));
+    let (dx, dy) = (grid.x().step().abs(), grid.y().step().abs());
     let channels = ["R", "G", "B"].map(|name| grid.channel(name));
     let mut taps = Taps::default();
-    for iy in 0..grid.y.count {
-        for ix in 0..grid.x.count {
-            let at = iy * grid.x.count + ix;
-            let weight = channels.map(|channel| {
-                let value = channel.and_then(|channel| channel.values.get(at));
-                value.map_or(0.0, |value| f64::from(*value) * dx * dy)
-            });
-            taps.push([grid.x.centre(ix), grid.y.centre(iy), dx.max(dy)], weight);
-        }
+    for (at, [h_x, h_y]) in centres(grid.x(), grid.y()).enumerate() {
+        let weight = channels.map(|channel| {
+            let value = channel.and_then(|channel| channel.values.get(at));
+            value.map_or(0.0, |value| f64::from(*value) * dx * dy)
+        });
+        taps.push([h_x, h_y, dx.max(dy)], weight);
     }
     taps
 }
@@ -40,7 +36,7 @@ pub fn line_taps(kernels: &[DirectionalKernel]) -> Taps {
     let mut taps = Taps::default();
     for kernel in kernels {
         let axis = &kernel.axis;
-        let step = ((axis.to - axis.from) / axis.count as f64).abs();
+        let step = axis.step().abs();
         for at in 0..axis.count {
             let s = axis.centre(at);
             let weight = [0, 1, 2].map(|channel| {

@@ -16,13 +16,13 @@ const SIZE: usize = 257;
 
 /// Values of a channel along h_y = 0 that a logarithm shows: above a millionth of the largest.
 fn section(grid: &Grid, channel: &str) -> Vec<(f64, f64)> {
-    let middle = grid.y.count / 2;
-    let values =
-        (0..grid.x.count).filter_map(|ix| Some((ix, f64::from(grid.at(channel, ix, middle)?))));
+    let middle = grid.y().count / 2;
+    let values = (0..grid.x().count)
+        .filter_map(|ix| Some((ix, f64::from(grid.at(channel, &[ix, middle])?))));
     let values: Vec<(usize, f64)> = values.collect();
     let largest = values.iter().fold(0.0_f64, |most, (_, v)| most.max(*v));
     let shown = values.into_iter().filter(|(_, v)| *v > 1e-6 * largest);
-    shown.map(|(ix, v)| (grid.x.centre(ix), v)).collect()
+    shown.map(|(ix, v)| (grid.x().centre(ix), v)).collect()
 }
 
 fn shape(channels: Channels, wavelengths_nm: Vec<f64>) -> TableShape {

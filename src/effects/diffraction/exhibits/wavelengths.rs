@@ -75,7 +75,7 @@ pub(in crate::effects::diffraction) fn rule_errors(
 /// Values of a channel away from the mirror direction.
 fn away<'a>(grid: &'a Grid, channel: &str) -> impl Iterator<Item = f64> + 'a {
     let values = grid.channel(channel).map_or(&[][..], |c| c.values.as_slice());
-    let texels = values.iter().enumerate().filter(|(i, _)| grid.x.centre(*i).abs() > MIRROR);
+    let texels = values.iter().enumerate().filter(|(i, _)| grid.x().centre(*i).abs() > MIRROR);
     texels.map(|(_, v)| f64::from(*v))
 }
 

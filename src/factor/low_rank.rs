@@ -1,9 +1,38 @@
-//! Kernels from their factors.
+//! Separable kernels: their factors, and the kernels that these give.
 
-use super::matrix::{of_channel, relative_error, texels, times};
+use faer::Mat;
+use rayon::prelude::*;
+
+use super::matrix::{norm_squared, of_channel, texels};
+use super::methods::require_size;
 use super::terms::Terms;
-use super::{LowRank, LowRankError};
-use crate::table::{Axis, Channel, Grid};
+use super::{Alignment, LowRankError};
+use crate::table::{Axis, Channel, Grid, centres};
+
+/// A kernel as a sum of products: K(a) = Σ_m vertical\[m\](a_y) · horizontal\[m\](a_x), with
+/// a = [`Alignment::matrix`] · h.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LowRank {
+    /// Axis of the horizontal factors, in aligned coordinates.
+    pub x: Axis,
+    /// Axis of the vertical factors, in aligned coordinates.
+    pub y: Axis,
+    /// One per channel of the table, in its order.
+    pub channels: Vec<ChannelFactors>,
+    /// From h to the coordinates of the axes.
+    pub alignment: Alignment,
+}
+
+/// The factors of one channel, largest first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelFactors {
+    /// Name of the channel.
+    pub name: String,
+    /// `vertical[m][iy]`: one list of `y.count` values per term.
+    pub vertical: Vec<Vec<f64>>,
+    /// `horizontal[m][ix]`: one list of `x.count` values per term.
+    pub horizontal: Vec<Vec<f64>>,
+}
 
 impl LowRank {
     /// The largest number of terms of a channel.
@@ -27,8 +56,12 @@ impl LowRank {
     pub fn evaluate(&self, channel: usize, h: [f64; 2]) -> f64 {
         let [ax, ay] = self.alignment.apply(h);
         let Some(factors) = self.channels.get(channel) else { return 0.0 };
-        let (Some(x), Some(y)) = (between(&self.x, ax), between(&self.y, ay)) else { return 0.0 };
-        factors.vertical.iter().zip(&factors.horizontal).map(|(v, h)| y.of(v) * x.of(h)).sum()
+        let (Some(x), Some(y)) = (self.x.between(ax), self.y.between(ay)) else { return 0.0 };
+        let of = |values: &[f64], (low, high, part): (usize, usize, f64)| {
+            let at = |i: usize| values.get(i).copied().unwrap_or(0.0);
+            at(low) * (1.0 - part) + at(high) * part
+        };
+        factors.vertical.iter().zip(&factors.horizontal).map(|(v, h)| of(v, y) * of(h, x)).sum()
     }
 
     /// The kernel on a table of h with these axes, each texel at its centre.
@@ -36,10 +69,8 @@ impl LowRank {
     /// # Errors
     /// As [`Grid::check`].
     pub fn to_grid(&self, x: &Axis, y: &Axis) -> Result<Grid, LowRankError> {
-        let (xs, ys) = (x.centres(), y.centres());
-        self.grid(x, y, |channel| {
-            let rows = ys.iter().flat_map(|hy| xs.iter().map(move |hx| [*hx, *hy]));
-            rows.map(|h| self.evaluate(channel, h) as f32).collect()
+        self.grid(x, y, |channel, _| {
+            centres(x, y).map(|h| self.evaluate(channel, h) as f32).collect()
         })
     }
 
@@ -48,10 +79,8 @@ impl LowRank {
     /// # Errors
     /// As [`Grid::check`].
     pub fn product(&self) -> Result<Grid, LowRankError> {
-        self.grid(&self.x, &self.y, |channel| {
-            let Some(factors) = self.channels.get(channel) else { return Vec::new() };
-            let terms = Terms::of(factors, self.y.count, self.x.count);
-            texels(times(terms.vertical.as_ref(), terms.horizontal.transpose()).as_ref())
+        self.grid(&self.x, &self.y, |_, factors| {
+            texels(Terms::of(factors, self.y.count, self.x.count).product().as_ref())
         })
     }
 
@@ -59,21 +88,12 @@ impl LowRank {
         &self,
         x: &Axis,
         y: &Axis,
-        values: impl Fn(usize) -> Vec<f32>,
+        values: impl Fn(usize, &ChannelFactors) -> Vec<f32>,
     ) -> Result<Grid, LowRankError> {
-        let channels = self.channels.iter().enumerate().map(|(index, channel)| Channel {
-            name: channel.name.clone(),
-            unit: "1".into(),
-            values: values(index),
-        });
-        let grid = Grid {
-            x: x.clone(),
-            y: y.clone(),
-            channels: channels.collect(),
-            origin: format!("factors of rank {}", self.rank()),
-        };
-        grid.check()?;
-        Ok(grid)
+        let named = self.channels.iter().enumerate();
+        let channels = named.map(|(at, c)| Channel::new(&c.name, "1", values(at, c))).collect();
+        let origin = format!("factors of rank {}", self.rank());
+        Ok(Grid::new([x.clone(), y.clone()], channels, origin)?)
     }
 
     /// ‖S − Ŝ‖/‖S‖ (Frobenius) per channel of a table in aligned coordinates; 0 for a channel that
@@ -82,12 +102,21 @@ impl LowRank {
     /// # Errors
     /// [`LowRankError::Mismatch`] if the table has other channels or another size.
     pub fn relative_errors(&self, aligned: &Grid) -> Result<Vec<f64>, LowRankError> {
-        let pairs = self.matched(aligned)?;
+        self.relative_errors_by(aligned, |d| norm_squared(d.as_ref()))
+    }
+
+    /// ‖S − Ŝ‖/‖S‖ per channel under a norm, `squared`; 0 for a channel that is 0 under it.
+    pub(super) fn relative_errors_by(
+        &self,
+        aligned: &Grid,
+        squared: impl Fn(&Mat<f64>) -> f64 + Sync,
+    ) -> Result<Vec<f64>, LowRankError> {
         let error = |(channel, terms): (&Channel, Terms)| {
             let s = of_channel(aligned, channel);
-            relative_error(s.as_ref(), terms.vertical.as_ref(), terms.horizontal.as_ref())
+            let whole = squared(&s);
+            if whole == 0.0 { 0.0 } else { (squared(&terms.residual(&s)) / whole).sqrt() }
         };
-        Ok(pairs.into_iter().map(error).collect())
+        Ok(self.matched(aligned)?.into_par_iter().map(error).collect())
     }
 
     /// The channels of a table of the same size with the terms of the same name.
@@ -95,18 +124,13 @@ impl LowRank {
         &self,
         table: &'g Grid,
     ) -> Result<Vec<(&'g Channel, Terms)>, LowRankError> {
-        let mismatch = |what: String| LowRankError::Mismatch { origin: table.origin.clone(), what };
-        if (table.x.count, table.y.count) != (self.x.count, self.y.count) {
-            return Err(mismatch(format!(
-                "{} × {} texels, the factors have {} × {}",
-                table.x.count, table.y.count, self.x.count, self.y.count
-            )));
-        }
+        require_size(table, [self.x.count, self.y.count], "the factors have")?;
         let named = |channel: &'g Channel| {
-            let factors =
-                self.channels.iter().find(|f| f.name == channel.name).ok_or_else(|| {
-                    mismatch(format!("no factors for channel {:?}", channel.name))
-                })?;
+            let factors = self.channels.iter().find(|f| f.name == channel.name);
+            let factors = factors.ok_or_else(|| LowRankError::Mismatch {
+                origin: table.origin.clone(),
+                what: format!("no factors for channel {:?}", channel.name),
+            })?;
             Ok((channel, Terms::of(factors, self.y.count, self.x.count)))
         };
         table.channels.iter().map(named).collect()
@@ -131,30 +155,4 @@ impl LowRank {
         }
         kernel
     }
-}
-
-/// Two neighbouring texels and the way between them.
-struct Between {
-    low: usize,
-    high: usize,
-    part: f64,
-}
-
-impl Between {
-    fn of(&self, values: &[f64]) -> f64 {
-        let at = |i: usize| values.get(i).copied().unwrap_or(0.0);
-        at(self.low) * (1.0 - self.part) + at(self.high) * self.part
-    }
-}
-
-/// Where `value` lies on `axis`; `None` beyond its edges.
-fn between(axis: &Axis, value: f64) -> Option<Between> {
-    let last = axis.count.checked_sub(1)?;
-    let at = axis.texel(value);
-    if !(-0.5..=last as f64 + 0.5).contains(&at) {
-        return None;
-    }
-    let at = at.clamp(0.0, last as f64);
-    let low = at.floor() as usize;
-    Some(Between { low, high: (low + 1).min(last), part: at.fract() })
 }
