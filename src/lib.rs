@@ -20,6 +20,6 @@ pub mod registry;
 pub mod fit;
 pub mod validate;
 pub mod render;
-pub mod report;
 pub mod gate;
+pub mod report;
 pub mod cli;

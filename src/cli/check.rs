@@ -6,15 +6,19 @@ use anyhow::bail;
 use clap::{Args, ValueEnum};
 
 use super::context::Context;
-use super::output::{self, significant, table};
+use super::output;
 use super::{Ending, specs, studies};
+use crate::document::text::{self, Layout};
+use crate::document::{Block, Cell, Column, Section, Table, Verdict};
 use crate::fit::Spec;
-use crate::gate::{self, Check, Gate, Precision, Proofs, Verdict};
+use crate::gate::{self, Check, Gate, Judgement, Precision, Proofs};
 use crate::gpu::{self, Device};
 use crate::numeric::measured::Measured;
+use crate::report::pages::{attention_section, gate_table};
 
 const MORE: &str = "\
-A gate of fits/gates.toml is measured afresh, with the committed constants on points that were not
+Gates that failed, were not measured or are close to their limit are listed, failures first; --all
+lists the others too. A gate of fits/gates.toml is measured afresh, with the committed constants on points that were not
 fitted. Every spec is fitted again in memory, and its constants must be the committed ones. A gate
 on the device without a device is shown as not measured; with STRIAE_REQUIRE_GPU=1 that ends with
 exit code 4.
@@ -40,6 +44,9 @@ pub(super) struct Arguments {
     /// Show that every gate can fail
     #[arg(long)]
     prove: bool,
+    /// List the gates that pass too
+    #[arg(long)]
+    all: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -62,7 +69,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     }
     let check = check(context, arguments.gates.as_deref(), arguments.prove)?;
     match format {
-        Format::Human => output::to_stdout(&text(&check))?,
+        Format::Human => context.output.sections(&check, || sections(&check, arguments.all))?,
         Format::Json => {
             output::to_stdout(&format!("{}\n", serde_json::to_string_pretty(&check)?))?;
         }
@@ -94,89 +101,80 @@ fn device(gates: &[Gate]) -> anyhow::Result<Measured<Device>> {
     studies::device()
 }
 
-/// Tables of verdicts, and a line that sums them up.
+/// The verdicts as text: what needs attention, and lines that sum up.
 pub(super) fn text(check: &Check) -> String {
-    let mut text = gates(check);
-    text.push('\n');
-    text.push_str(&constants(check));
-    if let Some(proofs) = &check.proofs {
-        text.push('\n');
-        text.push_str(&proved(proofs));
+    text::sections(&sections(check, false), Layout::default())
+}
+
+/// What needs attention, and lines that sum up; with `all` the gates that pass too.
+fn sections(check: &Check, all: bool) -> Vec<Section> {
+    let gates: Vec<&Judgement> = check.gates.iter().collect();
+    let passed: Vec<&Judgement> =
+        check.gates.iter().filter(|gate| gate.verdict == Verdict::Pass).collect();
+    let mut section = attention_section("Gates", &gates);
+    if all && !passed.is_empty() {
+        section = section.block(gate_table("Gates that pass.", &passed));
     }
-    text
+    // Failures first, and the line that sums up where the eye ends.
+    section.blocks.rotate_left(1);
+    let mut sections = vec![section, constants(check)];
+    sections.extend(check.proofs.as_ref().map(proved));
+    sections
 }
 
-fn gates(check: &Check) -> String {
-    let row = |judgement: &gate::Judgement| {
-        let gate = &judgement.gate;
-        let domain = gate.domain.as_ref().map_or_else(|| "as fitted".to_owned(), |d| d.to_string());
-        let measured = judgement.measured.as_ref();
-        let left = judgement.margin().map(|margin| format!("{:.2} %", 100.0 * margin));
-        let place = measured.map(gate::Reached::place).unwrap_or_default();
-        vec![
-            judgement.verdict.name().to_owned(),
-            gate.subject.clone(),
-            format!("{} {}", gate.metric, gate.precision),
-            domain,
-            measured.map_or_else(String::new, |m| significant(m.value, 5)),
-            significant(gate.limit, 5),
-            left.unwrap_or_default(),
-            judgement.reason.clone().unwrap_or(place),
-        ]
-    };
-    let header =
-        ["verdict", "subject", "metric", "domain", "measured", "limit", "left", "where or why"];
-    let count = |wanted| check.gates.iter().filter(|j| j.verdict == wanted).count();
-    format!(
-        "{}\n{} gates: {} passed, {} of them with a warning, {} not measured, {} failed\n",
-        table(&header, check.gates.iter().map(row).collect()),
-        check.gates.len(),
-        count(Verdict::Pass) + count(Verdict::Warn),
-        count(Verdict::Warn),
-        count(Verdict::NotMeasured),
-        count(Verdict::Fail),
-    )
-}
-
-fn constants(check: &Check) -> String {
+fn constants(check: &Check) -> Section {
     let failed: Vec<_> = check.constants.iter().filter(|c| c.verdict == Verdict::Fail).collect();
-    let mut text = format!(
-        "constants reproduce in {} of {} fits\n",
-        check.constants.len() - failed.len(),
-        check.constants.len()
-    );
-    for constants in failed {
-        text.push_str(&format!("FAIL {}: {}\n", constants.fit, constants.detail));
+    let (good, of) = (check.constants.len() - failed.len(), check.constants.len());
+    let mut section = Section::new("Constants");
+    if !failed.is_empty() {
+        let columns = vec![Column::verdict("verdict"), Column::code("fit"), Column::text("why")];
+        let rows = failed.iter().map(|constants| {
+            vec![
+                Cell::verdict(constants.verdict),
+                Cell::text(constants.fit.as_str()),
+                Cell::text(constants.detail.as_str()),
+            ]
+        });
+        section = section.block(Table::new("", columns).with_rows(rows));
     }
-    text
+    section.paragraph(format!("constants reproduce in {good} of {of} fits"))
 }
 
-fn proved(proofs: &Proofs) -> String {
+fn proved(proofs: &Proofs) -> Section {
     let row = |proof: &gate::Proof| {
         let step = proof.step.map_or_else(|| "none".to_owned(), |s| format!("{:+} %", 100.0 * s));
         vec![
-            proof.line.to_string(),
-            proof.subject.clone(),
-            proof.metric.name().to_owned(),
-            proof.constant.clone(),
-            step,
-            proof.value.map_or_else(String::new, |value| significant(value, 5)),
-            significant(proof.limit, 5),
-            format!("{} of {}", proof.alone, proof.of),
+            Cell::count(proof.line),
+            Cell::text(proof.subject.as_str()),
+            Cell::text(proof.metric.name()),
+            Cell::text(proof.constant.as_str()),
+            Cell::text(step),
+            proof.value.map_or_else(|| Cell::text(""), |value| Cell::number(value, 5)),
+            Cell::number(proof.limit, 5),
+            Cell::text(format!("{} of {}", proof.alone, proof.of)),
         ]
     };
-    let header =
-        ["line", "subject", "metric", "constant", "trips at", "measured", "limit", "fits alone"];
-    let mut text = table(&header, proofs.proofs.iter().map(row).collect());
+    let columns = vec![
+        Column::figures("line"),
+        Column::code("subject"),
+        Column::code("metric"),
+        Column::code("constant"),
+        Column::figures("trips at"),
+        Column::figures("measured"),
+        Column::figures("limit"),
+        Column::text("fits alone"),
+    ];
+    let mut section = Section::new("Proofs that gates can fail")
+        .block(Table::new("", columns).with_rows(proofs.proofs.iter().map(row)));
     if proofs.without_device > 0 {
         let count = proofs.without_device;
-        text.push_str(&format!("{count} gates on the device were tried on f32 lanes instead\n"));
-    }
-    for defect in &proofs.defects {
-        text.push_str(&format!("DEFECT {defect}\n"));
+        section = section
+            .paragraph(format!("{count} gates on the device were tried on f32 lanes instead"));
     }
     if proofs.defects.is_empty() {
-        text.push_str("every gate can fail, and every constant has a gate that notices it\n");
+        return section
+            .paragraph("every gate can fail, and every constant has a gate that notices it");
     }
-    text
+    let defects = proofs.defects.iter().map(|defect| format!("DEFECT {defect}").into());
+    section.block(Block::List(defects.collect()))
 }

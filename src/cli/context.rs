@@ -26,7 +26,7 @@ impl Context {
                 .context("--threads")?;
         }
         Ok(Self {
-            output: Output::new(global.json, global.quiet),
+            output: Output::new(global.json, global.quiet, global.color),
             seed: global.seed,
             project: project::find(global.project.as_deref()),
         })

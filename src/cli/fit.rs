@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 
 use super::context::Context;
-use super::fit_table::{constants, summary};
+use super::fit_table::{one, summary};
 use super::project::Project;
 use super::specs::{self, SpecFile};
 use super::{Ending, assignment, progress};
@@ -136,9 +136,9 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         jobs.iter_mut().for_each(|job| job.spec.seed = seed);
     }
     let results = fit(&jobs, &root, context)?;
-    context.output.result(&json(&results)?, || {
-        let tables = if arguments.all { summary(&results) } else { constants(&results) };
-        tables.trim_start().to_owned()
+    context.output.sections(&json(&results)?, || match arguments.all {
+        true => vec![summary(&results)],
+        false => results.iter().map(one).collect(),
     })?;
     Ok(ending(&results))
 }

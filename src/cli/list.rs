@@ -5,8 +5,8 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::context::Context;
-use super::output::{significant, table};
 use super::{Ending, specs};
+use crate::document::{Cell, Column, Section, Table, number};
 use crate::gate;
 use crate::registry::EFFECTS;
 use crate::render::AnyScene;
@@ -48,8 +48,11 @@ struct Listing {
 }
 
 impl Listing {
-    fn text(&self) -> String {
-        format!("{} ({})\n{}", self.title, self.rows.len(), table(self.header, self.rows.clone()))
+    fn section(&self) -> Section {
+        let columns = self.header.iter().map(|title| Column::text(*title)).collect();
+        let rows = self.rows.iter().map(|row| row.iter().map(|c| Cell::text(c.as_str())).collect());
+        let caption = format!("{} ({})", self.title, self.rows.len());
+        Section::default().block(Table::new(caption, columns).with_rows(rows))
     }
 
     fn json(&self) -> Value {
@@ -80,9 +83,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
             many.iter().map(|l| (l.title.to_owned(), l.json())).collect::<Map<_, _>>(),
         ),
     };
-    context
-        .output
-        .result(&json, || listings.iter().map(Listing::text).collect::<Vec<_>>().join("\n"))?;
+    context.output.sections(&json, || listings.iter().map(Listing::section).collect())?;
     Ok(Ending::Done)
 }
 
@@ -191,7 +192,7 @@ fn gates(context: &Context) -> anyhow::Result<Listing> {
     let gates = if file.exists() { gate::read(&file)? } else { Vec::new() };
     let gates = gates.into_iter().map(|gate| {
         let domain = gate.domain.map_or_else(|| "as fitted".to_owned(), |d| d.to_string());
-        let limit = significant(gate.limit, 6);
+        let limit = number(gate.limit, 6);
         row([
             &gate.subject,
             gate.metric.name(),

@@ -7,17 +7,16 @@ use clap::Args;
 use super::Ending;
 use super::check;
 use super::context::Context;
+use super::output::line;
 use super::progress;
-use super::studies::{self, Results, Studied};
-use crate::document::{Page, Provenance, Verdict};
-use crate::gate::{Check, Judgement, SCENES, Verdict as Standing};
+use super::studies::{self, Results};
+use crate::document::{Page, Provenance};
+use crate::gate::{Check, Judgement, SCENES};
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
 use crate::registry::EFFECTS;
 use crate::report::html::{Written, write_site};
-use crate::report::pages::{
-    Evidence, GateLine, effect_page, index_page, scenes_page, surfaces_page,
-};
+use crate::report::pages::{Evidence, effect_page, index_page, scenes_page, surfaces_page};
 
 const MORE: &str = "\
 Writes index.html and a page per effect (self-contained, no network), report.json, report.txt and
@@ -44,8 +43,8 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     let device = studies::device()?;
     let check = check::check(context, None, false)?;
     let written = write(&folder, &check, &device, context)?;
-    context.output.result(&serde_json::json!({ "files": written.files }), || {
-        format!("{} files in {}\n", written.files.len(), folder.display())
+    context.output.sections(&serde_json::json!({ "files": written.files }), || {
+        line(format!("{} files in {}", written.files.len(), folder.display()))
     })?;
     Ok(Ending::Done)
 }
@@ -68,8 +67,14 @@ pub(super) fn write(
     }
     let (scenes, surfaces) = studies::scenes(device, context)?;
     bar.set_message("writing the report");
-    let lines: Vec<GateLine> = check.gates.iter().map(line).collect();
-    let of: Vec<Vec<GateLine>> = studied.iter().map(|studied| gates_of(studied, &lines)).collect();
+    let gates: Vec<&Judgement> = check.gates.iter().collect();
+    let of: Vec<Vec<&Judgement>> = studied
+        .iter()
+        .map(|studied| {
+            let prefix = format!("{}/", studied.effect.name);
+            gates.iter().copied().filter(|of| of.gate.subject.starts_with(&prefix)).collect()
+        })
+        .collect();
     let evidence: Vec<Evidence<'_>> = studied
         .iter()
         .zip(&of)
@@ -83,14 +88,14 @@ pub(super) fn write(
             root: project.root(),
         })
         .collect();
-    let mut pages = vec![index_page(&evidence, &lines)];
+    let mut pages = vec![index_page(&evidence, &gates)];
     pages.extend(evidence.iter().map(effect_page).collect::<Result<Vec<Page>, _>>()?);
-    let of_scenes = |names: Vec<&str>| -> Vec<GateLine> {
-        let named = |line: &&GateLine| {
-            let rest = line.subject.strip_prefix(SCENES).unwrap_or_default();
+    let of_scenes = |names: Vec<&str>| -> Vec<&Judgement> {
+        let named = |of: &&Judgement| {
+            let rest = of.gate.subject.strip_prefix(SCENES).unwrap_or_default();
             names.contains(&rest.split('#').next().unwrap_or_default())
         };
-        lines.iter().filter(named).cloned().collect()
+        gates.iter().copied().filter(named).collect()
     };
     if !scenes.is_empty() {
         let names = scenes.iter().map(|of| of.scene.name.as_str()).collect();
@@ -109,30 +114,4 @@ pub(super) fn write(
     let written = write_site(folder, &pages, &provenance)?;
     bar.finish_and_clear();
     Ok(written)
-}
-
-fn gates_of(studied: &Studied, lines: &[GateLine]) -> Vec<GateLine> {
-    let prefix = format!("{}/", studied.effect.name);
-    lines.iter().filter(|line| line.subject.starts_with(&prefix)).cloned().collect()
-}
-
-fn line(judgement: &Judgement) -> GateLine {
-    let gate = &judgement.gate;
-    let domain = gate.domain.as_ref().map(|domain| format!(" over {domain}")).unwrap_or_default();
-    GateLine {
-        subject: gate.subject.clone(),
-        metric: format!("{} {}{domain}", gate.metric, gate.precision),
-        measured: match (&judgement.measured, &judgement.reason) {
-            (Some(measured), _) => Ok(measured.value),
-            (None, reason) => Err(reason.clone().unwrap_or_default()),
-        },
-        limit: gate.limit,
-        verdict: match judgement.verdict {
-            Standing::Pass => Verdict::Pass,
-            Standing::Warn => Verdict::Warn,
-            Standing::NotMeasured => Verdict::NotMeasured,
-            Standing::Fail => Verdict::Fail,
-        },
-        why: gate.why.clone(),
-    }
 }

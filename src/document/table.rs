@@ -21,6 +21,13 @@ impl Table {
         Self { caption: caption.into(), columns, rows: Vec::new() }
     }
 
+    /// The table with more rows.
+    #[must_use]
+    pub fn with_rows(mut self, rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
+        rows.into_iter().for_each(|row| self.push(row));
+        self
+    }
+
     /// Rows, in order; each has one cell per column.
     #[must_use]
     pub fn rows(&self) -> &[Vec<Cell>] {
@@ -71,24 +78,17 @@ impl Column {
 
     /// A column of numbers in `unit`.
     pub fn number(title: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self {
-            unit: Some(unit.into()),
-            align: Align::Right,
-            kind: ColumnKind::Number,
-            ..Self::text(title)
-        }
+        Self { unit: Some(unit.into()), ..Self::figures(title) }
+    }
+
+    /// A column of numbers whose unit is the row's, or stands in the heading.
+    pub fn figures(title: impl Into<String>) -> Self {
+        Self { align: Align::Right, kind: ColumnKind::Number, ..Self::text(title) }
     }
 
     /// A column of verdicts.
     pub fn verdict(title: impl Into<String>) -> Self {
         Self { kind: ColumnKind::Verdict, ..Self::text(title) }
-    }
-
-    /// The column with its cells elsewhere.
-    #[must_use]
-    pub fn aligned(mut self, align: Align) -> Self {
-        self.align = align;
-        self
     }
 
     /// The column under a heading that it shares with neighbours of the same group.
@@ -113,8 +113,6 @@ impl Column {
 pub enum Align {
     /// At the left.
     Left,
-    /// In the middle.
-    Centre,
     /// At the right.
     Right,
 }

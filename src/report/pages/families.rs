@@ -1,8 +1,8 @@
 //! Fits to families of measured tables, and what finer fitting is worth.
 
-use super::{Evidence, bare, count, place};
+use super::{Evidence, bare, place};
 use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Block, Cell, Column, Figure, Section, Table};
+use crate::document::{Block, Cell, Column, Figure, Section, Table, number};
 use crate::effect::{Family, Member};
 use crate::registry;
 use crate::validate::ValidateError;
@@ -40,7 +40,7 @@ pub(super) fn section(
     }
     Ok(section.block(Block::Details {
         summary: "Every member, every form: RMS in f32 on held-out points".into(),
-        blocks: vec![Block::Table(member_table(family))],
+        blocks: vec![member_table(family).into()],
     }))
 }
 
@@ -58,92 +58,83 @@ fn cost(evidence: &Evidence<'_>, fit: &str) -> f64 {
 }
 
 fn forms_table(family: &FamilyStudy, cost: &[f64]) -> Table {
-    let mut table = Table::new(
+    let columns = vec![
+        Column::code("fit"),
+        Column::number("free constants", "1"),
+        Column::number("RMS", "1"),
+        Column::number("max", "1"),
+        Column::text("worst member"),
+        Column::text("where"),
+        Column::number("cost", "ns"),
+        Column::text("spread of the constants between sources"),
+    ];
+    let mut forms: Vec<_> = family.forms.iter().zip(cost).collect();
+    forms.sort_by(|(a, _), (b, _)| b.rms.total_cmp(&a.rms));
+    Table::new(
         "Every form over all members, in f32, on held-out points with grazing and the dips among them. \
          Spread: half the difference of a constant between sources of one material, RMS over \
          materials and bands: what a constant is known to.",
+        columns,
+    )
+    .with_rows(forms.into_iter().map(|(form, cost)| {
+        let spread = form.constant_spread.iter();
+        let spread: Vec<String> =
+            spread.map(|(name, half)| format!("{name} ± {}", number(*half, 2))).collect();
         vec![
-            Column::code("fit"),
-            Column::number("free constants", "1"),
-            Column::number("RMS", "1"),
-            Column::number("max", "1"),
-            Column::text("worst member"),
-            Column::text("where"),
-            Column::number("cost", "ns"),
-            Column::text("spread of the constants between sources"),
-        ],
-    );
-    let mut order: Vec<usize> = (0..family.forms.len()).collect();
-    order.sort_by(|a, b| family.forms[*b].rms.total_cmp(&family.forms[*a].rms));
-    for at in order {
-        let form = &family.forms[at];
-        let spread = form
-            .constant_spread
-            .iter()
-            .map(|(name, half)| format!("{name} ± {}", crate::document::cell::number(*half, 2)))
-            .collect::<Vec<_>>()
-            .join(", ");
-        table.push(vec![
             Cell::text(bare(&form.fit)),
-            count(form.free),
+            Cell::count(form.free),
             Cell::number(form.rms, 3),
             Cell::number(form.max_abs, 3),
-            Cell::text(form.max_member.clone()),
+            Cell::text(form.max_member.as_str()),
             Cell::text(place(&form.max_at)),
-            Cell::number(cost[at], 3),
-            Cell::text(if spread.is_empty() { "–".into() } else { spread }),
-        ]);
-    }
-    table
+            Cell::number(*cost, 3),
+            Cell::text(if spread.is_empty() { "–".to_owned() } else { spread.join(", ") }),
+        ]
+    }))
 }
 
 fn choice_table(choices: &[Choice]) -> Table {
-    let mut table = Table::new(
+    let columns = vec![
+        Column::text("material"),
+        Column::number("spread of the sources, RMS", "1"),
+        Column::code("cheapest within it"),
+        Column::number("its RMS error", "1"),
+        Column::text("because"),
+    ];
+    Table::new(
         "For each material, the cheapest form whose error stays within the spread of its sources.",
+        columns,
+    )
+    .with_rows(choices.iter().map(|choice| {
+        let none = if choice.spread_rms.is_some() { "none" } else { "–" };
         vec![
-            Column::text("material"),
-            Column::number("spread of the sources, RMS", "1"),
-            Column::code("cheapest within it"),
-            Column::number("its RMS error", "1"),
-            Column::text("because"),
-        ],
-    );
-    for choice in choices {
-        table.push(vec![
-            Cell::text(choice.group.clone()),
+            Cell::text(choice.group.as_str()),
             Cell::number_or(choice.spread_rms, 3, "one source"),
-            choice.cheapest.as_deref().map_or_else(
-                || Cell::text(if choice.spread_rms.is_some() { "none" } else { "–" }),
-                |fit| Cell::text(bare(fit)),
-            ),
+            Cell::text(choice.cheapest.as_deref().map_or(none, bare)),
             choice.rms.map_or_else(|| Cell::text("–"), |rms| Cell::number(rms, 3)),
-            Cell::text(choice.reason.clone()),
-        ]);
-    }
-    table
+            Cell::text(choice.reason.as_str()),
+        ]
+    }))
 }
 
 fn spread_table(family: &FamilyStudy) -> Table {
-    let mut table = Table::new(
-        "How far the sources of a material are apart.",
+    let columns = vec![
+        Column::text("material"),
+        Column::text("sources"),
+        Column::number("RMS difference", "1"),
+        Column::number("max difference", "1"),
+        Column::text("band of the max"),
+    ];
+    let table = Table::new("How far the sources of a material are apart.", columns);
+    table.with_rows(family.spreads.iter().map(|spread| {
         vec![
-            Column::text("material"),
-            Column::text("sources"),
-            Column::number("RMS difference", "1"),
-            Column::number("max difference", "1"),
-            Column::text("band of the max"),
-        ],
-    );
-    for spread in &family.spreads {
-        table.push(vec![
-            Cell::text(spread.group.clone()),
+            Cell::text(spread.group.as_str()),
             Cell::text(spread.sources.join(", ")),
             Cell::number(spread.rms, 3),
             Cell::number(spread.max_abs, 3),
-            Cell::text(spread.max_band.clone()),
-        ]);
-    }
-    table
+            Cell::text(spread.max_band.as_str()),
+        ]
+    }))
 }
 
 fn groups(family: &FamilyStudy) -> Vec<&str> {
@@ -154,35 +145,35 @@ fn groups(family: &FamilyStudy) -> Vec<&str> {
     groups
 }
 
-fn group_table(family: &FamilyStudy) -> Table {
-    let mut columns = vec![Column::text("material")];
+/// A row per thing that `title` names, and the error of every form there.
+fn errors_table<'a>(
+    caption: &str,
+    title: &str,
+    family: &FamilyStudy,
+    rows: impl Iterator<Item = (&'a str, Vec<Option<f64>>)>,
+) -> Table {
+    let mut columns = vec![Column::text(title)];
     columns.extend(family.forms.iter().map(|form| Column::number(bare(&form.fit), "1")));
-    let mut table =
-        Table::new("RMS error per material, all bands and sources together, f32.", columns);
-    for group in groups(family) {
-        let mut row = vec![Cell::text(group)];
-        row.extend(family.forms.iter().map(|form| Cell::number(group_rms(form, group), 3)));
-        table.push(row);
-    }
-    table
+    Table::new(caption, columns).with_rows(rows.map(|(name, errors)| {
+        let errors = errors.into_iter().map(|e| Cell::number_or(e, 3, "no such member"));
+        [Cell::text(name)].into_iter().chain(errors).collect()
+    }))
+}
+
+fn group_table(family: &FamilyStudy) -> Table {
+    let of = |group| family.forms.iter().map(|form| Some(group_rms(form, group))).collect();
+    let rows = groups(family).into_iter().map(|group| (group, of(group)));
+    let caption = "RMS error per material, all bands and sources together, f32.";
+    errors_table(caption, "material", family, rows)
 }
 
 fn member_table(family: &FamilyStudy) -> Table {
-    let mut columns = vec![Column::text("member")];
-    columns.extend(family.forms.iter().map(|form| Column::number(bare(&form.fit), "1")));
-    let mut table = Table::new("RMS error per member, f32.", columns);
-    let members = family.forms.first().map_or(0, |form| form.members.len());
-    for at in 0..members {
-        let mut row = vec![Cell::text(family.forms[0].members[at].label.clone())];
-        row.extend(family.forms.iter().map(|form| {
-            form.members.get(at).map_or_else(
-                || Cell::missing("no such member"),
-                |m| Cell::number(m.residuals.rms, 3),
-            )
-        }));
-        table.push(row);
-    }
-    table
+    let members = family.forms.first().map_or(&[][..], |form| &form.members);
+    let rows = members.iter().enumerate().map(|(at, member)| {
+        let rms = family.forms.iter().map(|form| Some(form.members.get(at)?.residuals.rms));
+        (member.label.as_str(), rms.collect())
+    });
+    errors_table("RMS error per member, f32.", "member", family, rows)
 }
 
 /// Error curves for one member of the groups on which the forms differ most.

@@ -1,63 +1,91 @@
 //! Gates and their margins.
 
-use serde::Serialize;
+use crate::document::{Cell, Column, NoticeLevel, Section, Table, Verdict};
+use crate::gate::Judgement;
 
-use crate::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
-
-/// A gate and how it came out, as the report shows it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct GateLine {
-    /// What is judged.
-    pub subject: String,
-    /// Which figure of it, in which precision and domain.
-    pub metric: String,
-    /// The figure, or why there is none.
-    pub measured: Result<f64, String>,
-    /// Its limit.
-    pub limit: f64,
-    /// Verdict.
-    pub verdict: Verdict,
-    /// Why the gate is there.
-    pub why: String,
+/// What `fits/gates.toml` says of `gates`: those that need attention, and a line that sums up.
+///
+/// A gate needs attention unless it plainly passes; failures come first.
+pub fn attention_section(title: &str, gates: &[&Judgement]) -> Section {
+    let section = Section::new(title);
+    if gates.is_empty() {
+        let text = "No gate holds this: nothing would notice a change.";
+        return section.notice(NoticeLevel::Warning, text);
+    }
+    let mut wanting: Vec<&Judgement> =
+        gates.iter().copied().filter(|gate| gate.verdict != Verdict::Pass).collect();
+    wanting.sort_by_key(|gate| std::cmp::Reverse(gate.verdict));
+    let level = match wanting.first().map(|gate| gate.verdict) {
+        Some(Verdict::Fail) => NoticeLevel::Failure,
+        Some(Verdict::Warn) => NoticeLevel::Warning,
+        Some(Verdict::NotMeasured) => NoticeLevel::NotMeasured,
+        Some(Verdict::Pass) | None => NoticeLevel::Info,
+    };
+    let section = section.notice(level, summary(gates));
+    if wanting.is_empty() {
+        return section;
+    }
+    section.block(table(
+        "Gates that failed, were not measured, or are close to their limit.",
+        &wanting,
+    ))
 }
 
-pub(super) fn section(gates: &[GateLine]) -> Section {
-    let section = Section::new("Gates");
+/// The gates of a page: what needs attention, then all of them.
+pub(super) fn section(gates: &[&Judgement]) -> Section {
+    let section = attention_section("Gates", gates);
     if gates.is_empty() {
-        return section.block(Block::Notice {
-            level: NoticeLevel::Warning,
-            text: "No gate holds this page: nothing would notice a change.".into(),
-        });
+        return section;
     }
-    let mut table = Table::new(
-        "Budgets of `fits/gates.toml`. The margin is what is left of the limit.",
-        vec![
-            Column::code("subject"),
-            Column::code("metric"),
-            Column::number("measured", "1"),
-            Column::number("limit", "1"),
-            Column::number("margin", "%"),
-            Column::verdict("verdict"),
-            Column::text("why"),
-        ],
-    );
-    for gate in gates {
-        let (measured, margin) = match &gate.measured {
-            Ok(value) => (
-                Cell::number(*value, 4),
-                Cell::number((gate.limit - value) / gate.limit * 100.0, 3),
-            ),
-            Err(reason) => (Cell::missing(reason.clone()), Cell::missing("nothing was measured")),
+    section.block(table("Every budget of `fits/gates.toml` on what this page shows.", gates))
+}
+
+/// `2 gates: 2 passed, 0 of them with a warning, 0 not measured, 0 failed`.
+fn summary(gates: &[&Judgement]) -> String {
+    let count = |wanted| gates.iter().filter(|gate| gate.verdict == wanted).count();
+    let (passed, warned) = (count(Verdict::Pass), count(Verdict::Warn));
+    format!(
+        "{} gates: {} passed, {warned} of them with a warning, {} not measured, {} failed",
+        gates.len(),
+        passed + warned,
+        count(Verdict::NotMeasured),
+        count(Verdict::Fail),
+    )
+}
+
+/// A row per gate: verdict, what was measured of which limit and where, and why the gate is there.
+pub fn table(caption: &str, gates: &[&Judgement]) -> Table {
+    let columns = vec![
+        Column::verdict("verdict"),
+        Column::code("subject"),
+        Column::code("metric"),
+        Column::text("domain"),
+        Column::figures("measured"),
+        Column::figures("limit"),
+        Column::number("left", "%"),
+        Column::text("where"),
+        Column::text("why it is there"),
+    ];
+    Table::new(caption, columns).with_rows(gates.iter().map(|judgement| {
+        let gate = &judgement.gate;
+        let reason = judgement.reason.as_deref();
+        let (measured, place) = match &judgement.measured {
+            Some(measured) => {
+                let place = reason.map_or_else(|| measured.place(), str::to_owned);
+                (Cell::number(measured.value, 5), place)
+            }
+            None => (Cell::missing(reason.unwrap_or("no reason given")), String::new()),
         };
-        table.push(vec![
-            Cell::text(gate.subject.clone()),
-            Cell::text(gate.metric.clone()),
+        vec![
+            Cell::verdict(judgement.verdict),
+            Cell::text(gate.subject.as_str()),
+            Cell::text(format!("{} {}", gate.metric, gate.precision)),
+            Cell::text(gate.domain.as_ref().map_or("as fitted".to_owned(), ToString::to_string)),
             measured,
-            Cell::number(gate.limit, 4),
-            margin,
-            Cell::verdict(gate.verdict),
-            Cell::text(gate.why.clone()),
-        ]);
-    }
-    section.block(table)
+            Cell::number(gate.limit, 5),
+            judgement.margin().map_or_else(|| Cell::text(""), |left| Cell::number(100.0 * left, 3)),
+            Cell::text(place),
+            Cell::text(gate.why.as_str()),
+        ]
+    }))
 }
