@@ -9,6 +9,7 @@ use quick_xml::Reader;
 use quick_xml::events::Event;
 use report_sample::{pages, provenance};
 use striae::document::plot::{Axis, Plot, Series};
+use striae::document::text::Layout;
 use striae::document::{Block, Cell, Column, Figure, Inline, Page, Section, Span, Table};
 use striae::document::{json, text};
 use striae::report::html::{SiteError, write_site};
@@ -360,8 +361,8 @@ fn short_rows_show_what_they_lack_and_empty_tables_say_so() -> Result {
     let mut short = Table::new("short", columns);
     short.push(vec![Cell::text("x")]);
     assert_eq!(short.rows()[0][1], Cell::missing("no value given"));
-    assert!(text::table(&short).contains("g: b [1]"));
-    assert!(text::table(&empty).contains("nothing to show"));
+    assert!(text::table(&short, Layout::default()).contains("g: b [1]"));
+    assert!(text::table(&empty, Layout::default()).contains("nothing to show"));
     let page = Page::new("p", "t", "s").section(Section::new("s").block(empty).block(short));
     let dir = tempfile::tempdir()?;
     write_site(dir.path(), &[page], &provenance())?;

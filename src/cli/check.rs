@@ -14,7 +14,7 @@ use crate::fit::Spec;
 use crate::gate::{self, Check, Gate, Judgement, Precision, Proofs};
 use crate::gpu::{self, Device};
 use crate::numeric::measured::Measured;
-use crate::report::pages::{attention_section, gate_table};
+use crate::report::pages::{by_attention, gate_table, summary};
 
 const MORE: &str = "\
 Gates that failed, were not measured or are close to their limit are listed, failures first; --all
@@ -109,14 +109,16 @@ pub(super) fn text(check: &Check) -> String {
 /// What needs attention, and lines that sum up; with `all` the gates that pass too.
 fn sections(check: &Check, all: bool) -> Vec<Section> {
     let gates: Vec<&Judgement> = check.gates.iter().collect();
-    let passed: Vec<&Judgement> =
-        check.gates.iter().filter(|gate| gate.verdict == Verdict::Pass).collect();
-    let mut section = attention_section("Gates", &gates);
-    if all && !passed.is_empty() {
-        section = section.block(gate_table("Gates that pass.", &passed));
+    let (passed, attention) = by_attention(&gates);
+    let mut section = Section::new("Gates");
+    if !attention.is_empty() {
+        section = section.block(gate_table("", &attention));
     }
-    // Failures first, and the line that sums up where the eye ends.
-    section.blocks.rotate_left(1);
+    if all && !passed.is_empty() {
+        section = section.block(gate_table("Gates that pass:", &passed));
+    }
+    // The line that sums up comes last, where the eye ends.
+    let section = section.paragraph(summary(&gates));
     let mut sections = vec![section, constants(check)];
     sections.extend(check.proofs.as_ref().map(proved));
     sections

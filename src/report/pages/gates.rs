@@ -3,32 +3,34 @@
 use crate::document::{Cell, Column, NoticeLevel, Section, Table, Verdict};
 use crate::gate::Judgement;
 
-/// What `fits/gates.toml` says of `gates`: those that need attention, and a line that sums up.
-///
-/// A gate needs attention unless it plainly passes; failures come first.
-pub fn attention_section(title: &str, gates: &[&Judgement]) -> Section {
+/// The gates that plainly pass, in their order, and those that need attention, failures first.
+pub fn by_attention<'a>(gates: &[&'a Judgement]) -> (Vec<&'a Judgement>, Vec<&'a Judgement>) {
+    let pass = |gate: &&Judgement| gate.verdict == Verdict::Pass;
+    let (passed, mut attention): (Vec<_>, Vec<_>) = gates.iter().copied().partition(pass);
+    attention.sort_by_key(|gate| std::cmp::Reverse(gate.verdict));
+    (passed, attention)
+}
+
+/// A line that sums up, and the gates that need attention.
+pub(super) fn attention_section(title: &str, gates: &[&Judgement]) -> Section {
     let section = Section::new(title);
     if gates.is_empty() {
         let text = "No gate holds this: nothing would notice a change.";
         return section.notice(NoticeLevel::Warning, text);
     }
-    let mut wanting: Vec<&Judgement> =
-        gates.iter().copied().filter(|gate| gate.verdict != Verdict::Pass).collect();
-    wanting.sort_by_key(|gate| std::cmp::Reverse(gate.verdict));
-    let level = match wanting.first().map(|gate| gate.verdict) {
+    let (_, attention) = by_attention(gates);
+    let level = match attention.first().map(|gate| gate.verdict) {
         Some(Verdict::Fail) => NoticeLevel::Failure,
         Some(Verdict::Warn) => NoticeLevel::Warning,
         Some(Verdict::NotMeasured) => NoticeLevel::NotMeasured,
         Some(Verdict::Pass) | None => NoticeLevel::Info,
     };
     let section = section.notice(level, summary(gates));
-    if wanting.is_empty() {
+    if attention.is_empty() {
         return section;
     }
-    section.block(table(
-        "Gates that failed, were not measured, or are close to their limit.",
-        &wanting,
-    ))
+    let caption = "Gates that failed, were not measured, or are close to their limit.";
+    section.block(table(caption, &attention))
 }
 
 /// The gates of a page: what needs attention, then all of them.
@@ -41,7 +43,7 @@ pub(super) fn section(gates: &[&Judgement]) -> Section {
 }
 
 /// `2 gates: 2 passed, 0 of them with a warning, 0 not measured, 0 failed`.
-fn summary(gates: &[&Judgement]) -> String {
+pub fn summary(gates: &[&Judgement]) -> String {
     let count = |wanted| gates.iter().filter(|gate| gate.verdict == wanted).count();
     let (passed, warned) = (count(Verdict::Pass), count(Verdict::Warn));
     format!(

@@ -26,7 +26,7 @@ use crate::validate::study::Study;
 
 pub use costs::cost_section;
 pub use fits::{constants, family_constants, status};
-pub use gates::{attention_section, table as gate_table};
+pub use gates::{by_attention, summary, table as gate_table};
 pub use index::index_page;
 pub use scenes::{SceneEvidence, scenes_page};
 pub use surfaces::{SurfaceEvidence, surfaces_page};
