@@ -129,45 +129,30 @@ fn constants(check: &Check) -> Section {
     let (good, of) = (check.constants.len() - failed.len(), check.constants.len());
     let mut section = Section::new("Constants");
     if !failed.is_empty() {
-        let columns = vec![Column::verdict("verdict"), Column::code("fit"), Column::text("why")];
-        let rows = failed.iter().map(|constants| {
-            vec![
-                Cell::verdict(constants.verdict),
-                Cell::text(constants.fit.as_str()),
-                Cell::text(constants.detail.as_str()),
-            ]
-        });
-        section = section.block(Table::new("", columns).with_rows(rows));
+        let table = Table::over("", failed)
+            .column(Column::verdict("verdict"), |of| Cell::verdict(of.verdict))
+            .column(Column::code("fit"), |of| Cell::text(of.fit.as_str()))
+            .column(Column::text("why"), |of| Cell::text(of.detail.as_str()));
+        section = section.block(table);
     }
     section.paragraph(format!("constants reproduce in {good} of {of} fits"))
 }
 
 fn proved(proofs: &Proofs) -> Section {
-    let row = |proof: &gate::Proof| {
-        let step = proof.step.map_or_else(|| "none".to_owned(), |s| format!("{:+} %", 100.0 * s));
-        vec![
-            Cell::count(proof.line),
-            Cell::text(proof.subject.as_str()),
-            Cell::text(proof.metric.name()),
-            Cell::text(proof.constant.as_str()),
-            Cell::text(step),
-            proof.value.map_or_else(|| Cell::text(""), |value| Cell::number(value, 5)),
-            Cell::number(proof.limit, 5),
-            Cell::text(format!("{} of {}", proof.alone, proof.of)),
-        ]
-    };
-    let columns = vec![
-        Column::figures("line"),
-        Column::code("subject"),
-        Column::code("metric"),
-        Column::code("constant"),
-        Column::figures("trips at"),
-        Column::figures("measured"),
-        Column::figures("limit"),
-        Column::text("fits alone"),
-    ];
-    let mut section = Section::new("Proofs that gates can fail")
-        .block(Table::new("", columns).with_rows(proofs.proofs.iter().map(row)));
+    let step = |step: f64| Cell::text(format!("{:+} %", 100.0 * step));
+    let none = |word: &'static str| move || Cell::text(word);
+    let table = Table::over("", &proofs.proofs)
+        .column(Column::figures("line"), |of| Cell::count(of.line))
+        .column(Column::code("subject"), |of| Cell::text(of.subject.as_str()))
+        .column(Column::code("metric"), |of| Cell::text(of.metric.name()))
+        .column(Column::code("constant"), |of| Cell::text(of.constant.as_str()))
+        .column(Column::figures("trips at"), |of| of.step.map_or_else(none("none"), step))
+        .column(Column::figures("measured"), |of| {
+            of.value.map_or_else(none(""), |value| Cell::number(value, 5))
+        })
+        .column(Column::figures("limit"), |of| Cell::number(of.limit, 5))
+        .column(Column::text("fits alone"), |of| Cell::text(format!("{} of {}", of.alone, of.of)));
+    let mut section = Section::new("Proofs that gates can fail").block(table);
     if proofs.without_device > 0 {
         let count = proofs.without_device;
         section = section

@@ -45,9 +45,11 @@ pub(super) fn run(_: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     lines.extend(project(context)?);
     lines.extend(TOOLS.iter().map(|(name, flag, use_)| tool(name, flag, use_)));
     context.output.sections(&lines, || {
-        let columns = ["subject", "state", "detail"].map(Column::text).to_vec();
-        let row = |line: &Line| [&line.subject, line.state, &line.detail].map(Cell::text).to_vec();
-        vec![Section::default().block(Table::new("", columns).with_rows(lines.iter().map(row)))]
+        let table = Table::over("", &lines)
+            .column(Column::text("subject"), |line| Cell::text(line.subject.as_str()))
+            .column(Column::text("state"), |line| Cell::text(line.state))
+            .column(Column::text("detail"), |line| Cell::text(line.detail.as_str()));
+        vec![Section::default().block(table)]
     })?;
     Ok(Ending::Done)
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::document::{self, Cell, Column, Section, number};
@@ -9,7 +10,7 @@ use crate::factor::{Directional, MainDirections, Spectrum};
 use crate::table::{Grid, shortest_number};
 
 /// One method at one rank in one channel.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub(super) struct Row {
     pub(super) method: &'static str,
     pub(super) rank: usize,
@@ -17,6 +18,7 @@ pub(super) struct Row {
     /// ‖S − Ŝ‖/‖S‖.
     pub(super) relative_error: f64,
     /// The same after convolution, where there are environments.
+    #[serde(rename = "error_after_convolution")]
     pub(super) after_convolution: Option<f64>,
     /// Of all channels together.
     pub(super) ms: f64,
@@ -87,45 +89,31 @@ impl Factored<'_> {
 
     /// A row per method and rank.
     fn errors(&self) -> document::Table {
+        let names = || self.table.channels.iter().map(|c| c.name.as_str()).enumerate();
         let seen = self.rows.iter().any(|row| row.after_convolution.is_some());
-        let channels = || self.table.channels.iter().map(|channel| channel.name.as_str());
-        let mut columns = vec![Column::code("method"), Column::figures("rank")];
-        columns.extend(channels().map(|c| Column::figures(format!("error {c}"))));
-        if seen {
-            columns.extend(channels().map(|c| Column::figures(format!("convolved {c}"))));
-        }
-        columns.push(Column::figures("ms"));
-        let of_all_channels = self.rows.chunks(self.table.channels.len().max(1));
-        let rows = of_all_channels.filter_map(|rows| {
-            let first = rows.first()?;
-            let mut cells = vec![Cell::text(first.method), Cell::count(first.rank)];
-            cells.extend(rows.iter().map(|row| Cell::number(row.relative_error, 4)));
-            if seen {
-                let why = "no environment";
-                cells.extend(rows.iter().map(|row| Cell::number_or(row.after_convolution, 4, why)));
-            }
-            cells.push(Cell::number(first.ms, 3));
-            Some(cells)
-        });
-        document::Table::new("", columns).with_rows(rows)
+        let number = |row: Option<&Row>, of: fn(&Row) -> Option<f64>| {
+            Cell::number_or(row.and_then(of), 4, "no environment")
+        };
+        // Rows of the channels of one method at one rank stand together.
+        document::Table::over("", self.rows.chunks(self.table.channels.len().max(1)))
+            .column(Column::code("method"), |rows| Cell::text(rows[0].method))
+            .column(Column::figures("rank"), |rows| Cell::count(rows[0].rank))
+            .columns(
+                names(),
+                |(_, name)| Column::figures(format!("error {name}")),
+                |rows, (at, _)| number(rows.get(*at), |row| Some(row.relative_error)),
+            )
+            .columns(
+                names().filter(|_| seen),
+                |(_, name)| Column::figures(format!("convolved {name}")),
+                |rows, (at, _)| number(rows.get(*at), |row| row.after_convolution),
+            )
+            .column(Column::figures("ms"), |rows| Cell::number(rows[0].ms, 3))
+            .table()
     }
 
     /// For a program.
     pub(super) fn json(&self) -> Value {
-        let rows: Vec<Value> = self
-            .rows
-            .iter()
-            .map(|row| {
-                json!({
-                    "method": row.method,
-                    "rank": row.rank,
-                    "channel": row.channel,
-                    "relative_error": row.relative_error,
-                    "error_after_convolution": row.after_convolution,
-                    "ms": row.ms,
-                })
-            })
-            .collect();
         let spectra: Vec<Value> = self
             .spectra
             .iter()
@@ -158,7 +146,7 @@ impl Factored<'_> {
         json!({
             "table": self.table.origin,
             "output": self.folder.display().to_string(),
-            "rows": rows,
+            "rows": self.rows,
             "spectra": spectra,
             "alignment": alignment,
             "directional": lines,

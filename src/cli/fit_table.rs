@@ -4,49 +4,48 @@ use std::collections::BTreeMap;
 
 use crate::document::{Cell, Column, Section, Table, number};
 use crate::fit::FitResult;
-use crate::fit::outcome::{FamilyOutcome, Outcome};
+use crate::fit::outcome::Outcome;
 use crate::report::pages::{constants, family_constants, status};
 
-/// One line per fit.
+/// One line per fit; of a family the worst, and the RMS over the points of all members.
 pub(super) fn summary(results: &[FitResult]) -> Section {
-    let columns = vec![
-        Column::code("fit"),
-        Column::verdict("status"),
-        Column::figures("free"),
-        Column::figures("rms (f32)"),
-        Column::figures("max (f32)"),
-    ];
-    let row = |result: &FitResult| match result {
-        FitResult::Single(outcome) => vec![
-            Cell::text(outcome.name.as_str()),
-            status(outcome),
-            Cell::count(outcome.free_count()),
-            Cell::number(outcome.residuals_f32.rms, 4),
-            Cell::number(outcome.residuals_f32.max_abs, 4),
-        ],
-        FitResult::Family(family) => family_row(family),
+    let shipped = |result: &FitResult| {
+        let residuals: Vec<_> = result.outcomes().iter().map(|of| &of.residuals_f32).collect();
+        let points: usize = residuals.iter().map(|of| of.count).sum();
+        let squares: f64 = residuals.iter().map(|of| of.rms.powi(2) * of.count as f64).sum();
+        let max = residuals.iter().map(|of| of.max_abs).fold(0.0, f64::max);
+        match residuals.as_slice() {
+            [one] => (one.rms, one.max_abs),
+            _ => ((squares / points as f64).sqrt(), max),
+        }
     };
-    Section::default().block(Table::new("", columns).with_rows(results.iter().map(row)))
+    let table = Table::over("", results)
+        .column(Column::code("fit"), |result| match result {
+            FitResult::Single(outcome) => Cell::text(outcome.name.as_str()),
+            FitResult::Family(family) => Cell::text(family.name.as_str()),
+        })
+        .column(Column::verdict("status"), |result| match result {
+            FitResult::Single(outcome) => status(outcome),
+            FitResult::Family(family) => Cell::text(endings(&family.members)),
+        })
+        .column(Column::figures("free"), |result| {
+            result
+                .outcomes()
+                .first()
+                .map_or_else(|| Cell::text(""), |of| Cell::count(of.free_count()))
+        })
+        .column(Column::figures("rms (f32)"), |result| Cell::number(shipped(result).0, 4))
+        .column(Column::figures("max (f32)"), |result| Cell::number(shipped(result).1, 4));
+    Section::default().block(table)
 }
 
-fn family_row(family: &FamilyOutcome) -> Vec<Cell> {
-    let members = &family.members;
+/// `184 converged, 2 at a bound`.
+fn endings(members: &[Outcome]) -> String {
     let mut endings: BTreeMap<&str, usize> = BTreeMap::new();
     for member in members {
         *endings.entry(member.status.words()).or_default() += 1;
     }
-    let endings: Vec<String> = endings.iter().map(|(name, n)| format!("{n} {name}")).collect();
-    let points: usize = members.iter().map(|m| m.residuals_f32.count).sum();
-    let squares: f64 =
-        members.iter().map(|m| m.residuals_f32.rms.powi(2) * m.residuals_f32.count as f64).sum();
-    let max = members.iter().map(|m| m.residuals_f32.max_abs).fold(0.0, f64::max);
-    vec![
-        Cell::text(family.name.as_str()),
-        Cell::text(endings.join(", ")),
-        members.first().map_or_else(|| Cell::text(""), |member| Cell::count(member.free_count())),
-        Cell::number((squares / points as f64).sqrt(), 4),
-        Cell::number(max, 4),
-    ]
+    endings.iter().map(|(name, n)| format!("{n} {name}")).collect::<Vec<_>>().join(", ")
 }
 
 /// The constants of a fit; one line per member for a family.

@@ -49,10 +49,13 @@ struct Listing {
 
 impl Listing {
     fn section(&self) -> Section {
-        let columns = self.header.iter().map(|title| Column::text(*title)).collect();
-        let rows = self.rows.iter().map(|row| row.iter().map(|c| Cell::text(c.as_str())).collect());
         let caption = format!("{} ({})", self.title, self.rows.len());
-        Section::default().block(Table::new(caption, columns).with_rows(rows))
+        let table = Table::over(caption, &self.rows).columns(
+            self.header.iter().enumerate(),
+            |(_, title)| Column::text(**title),
+            |row, (at, _)| Cell::text(row[*at].as_str()),
+        );
+        Section::default().block(table)
     }
 
     fn json(&self) -> Value {

@@ -45,7 +45,7 @@ use serde::{Serialize, Serializer};
 pub use cell::{Cell, Highlight, Value, Verdict, number};
 pub use inline::{Inline, Span};
 use plot::Plot;
-pub use table::{Align, Column, ColumnKind, Table};
+pub use table::{Align, Column, ColumnKind, Table, Tabled};
 
 /// One page: `<slug>.html`. The page with the slug `index` leads, and lists the others.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -190,6 +190,12 @@ pub enum Block {
 impl From<Table> for Block {
     fn from(table: Table) -> Self {
         Self::Table(table)
+    }
+}
+
+impl<R> From<Tabled<R>> for Block {
+    fn from(table: Tabled<R>) -> Self {
+        Self::Table(table.table())
     }
 }
 

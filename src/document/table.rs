@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::cell::Cell;
+use super::cell::{Cell, Highlight};
 use super::inline::Inline;
 
 /// A table. Every row has one cell per column; the first column heads its row.
@@ -19,6 +19,22 @@ impl Table {
     /// A table without rows.
     pub fn new(caption: impl Into<Inline>, columns: Vec<Column>) -> Self {
         Self { caption: caption.into(), columns, rows: Vec::new() }
+    }
+
+    /// A table with a row per record; [`Tabled::column`] says what is shown of each.
+    ///
+    /// ```
+    /// use striae::document::{Cell, Column, Table};
+    /// let table = Table::over("Squares.", [1.0, 2.0, 3.0])
+    ///     .column(Column::number("x", "1"), |x| Cell::number(*x, 2))
+    ///     .column(Column::number("x²", "1"), |x| Cell::number(x * x, 2))
+    ///     .table();
+    /// assert_eq!(table.rows().len(), 3);
+    /// ```
+    pub fn over<R>(caption: impl Into<Inline>, records: impl IntoIterator<Item = R>) -> Tabled<R> {
+        let records: Vec<R> = records.into_iter().collect();
+        let rows = records.iter().map(|_| Vec::new()).collect();
+        Tabled { table: Self { caption: caption.into(), columns: Vec::new(), rows }, records }
     }
 
     /// The table with more rows.
@@ -39,6 +55,54 @@ impl Table {
     pub fn push(&mut self, mut row: Vec<Cell>) {
         row.resize_with(self.columns.len(), || Cell::missing("no value given"));
         self.rows.push(row);
+    }
+}
+
+/// A table in the making: a row per record, growing column by column.
+#[derive(Debug, Clone)]
+pub struct Tabled<R> {
+    table: Table,
+    records: Vec<R>,
+}
+
+impl<R> Tabled<R> {
+    /// One more column, and what it shows of a record.
+    #[must_use]
+    pub fn column(mut self, column: Column, cell: impl Fn(&R) -> Cell) -> Self {
+        self.table.columns.push(column);
+        for (row, record) in self.table.rows.iter_mut().zip(&self.records) {
+            row.push(cell(record));
+        }
+        self
+    }
+
+    /// One more column per item, and what each shows of a record.
+    #[must_use]
+    pub fn columns<I>(
+        self,
+        items: impl IntoIterator<Item = I>,
+        column: impl Fn(&I) -> Column,
+        cell: impl Fn(&R, &I) -> Cell,
+    ) -> Self {
+        items
+            .into_iter()
+            .fold(self, |table, item| table.column(column(&item), |record| cell(record, &item)))
+    }
+
+    /// The rows of some records, standing out.
+    #[must_use]
+    pub fn highlighted(mut self, highlight: Highlight, which: impl Fn(&R) -> bool) -> Self {
+        let rows = self.table.rows.iter_mut().zip(&self.records);
+        for (row, _) in rows.filter(|(_, record)| which(record)) {
+            row.iter_mut().for_each(|cell| cell.highlight = Some(highlight));
+        }
+        self
+    }
+
+    /// The table.
+    #[must_use]
+    pub fn table(self) -> Table {
+        self.table
     }
 }
 

@@ -171,7 +171,7 @@ impl Printer {
         }
         shown.set_header(table.columns.iter().map(|column| column.heading()));
         for row in table.rows() {
-            shown.add_row(row.iter().map(|cell| self.cell(cell)));
+            shown.add_row(row.iter().enumerate().map(|(index, cell)| self.cell(index, cell)));
         }
         for (index, column) in table.columns.iter().enumerate() {
             if let Some(shown) = shown.column_mut(index) {
@@ -194,12 +194,13 @@ impl Printer {
         }
     }
 
-    fn cell(&self, cell: &Cell) -> comfy_table::Cell {
+    fn cell(&self, index: usize, cell: &Cell) -> comfy_table::Cell {
         let mark = match cell.highlight {
             Some(Highlight::Best) => " *",
             Some(Highlight::Worst) => " !",
-            Some(Highlight::Subject) => " <",
-            None => "",
+            // Of a whole row that is the subject, the name says so.
+            Some(Highlight::Subject) if index == 0 => " <",
+            _ => "",
         };
         let verdict = match cell.value {
             Value::Verdict { verdict, .. } => Some(verdict),

@@ -4,10 +4,11 @@ use super::{Evidence, bare, device_notice, on_device};
 use crate::document::plot::{Axis, Plot, Series};
 use crate::document::{Block, Cell, Column, Figure, Highlight, Section, Table, Verdict, number};
 use crate::effect::{Effect, Yardstick};
-use crate::gpu::Measurement;
+use crate::form::OpCount;
+use crate::gpu::{Measurement, Spread};
 use crate::numeric::measured::Measured;
-use crate::validate::cheapest::{Cheapest, cheapest};
-use crate::validate::cost::{Cost, Costs};
+use crate::validate::cheapest::{Cheapest, LIMITS, cheapest};
+use crate::validate::cost::Costs;
 use crate::validate::goals::{GoalVerdict, goals};
 use crate::validate::standing::{Answers, Standing, standings};
 use crate::validate::study::Study;
@@ -145,143 +146,112 @@ fn baselines(costs: &Costs) -> String {
 }
 
 fn table(standings: &[Standing<'_>], costs: &Costs) -> Table {
-    let columns = vec![
-        Column::code("fit"),
-        Column::text("frontier"),
-        Column::text("error, f32"),
-        Column::number("device", "ns"),
-        Column::text("quartiles [ns]"),
-        Column::number("ratio to baseline", "1"),
-        Column::text("quartiles of the ratio"),
-        Column::number("f32 lanes", "ns"),
-        Column::number("f64 lanes", "ns"),
-    ];
     let has_device = costs.adapter.value().is_some();
-    let row = |one: &Standing<'_>| {
-        let errors = one.error.iter();
-        let errors: Vec<String> =
-            errors.map(|(region, error)| format!("{} ({region})", number(*error, 3))).collect();
-        let mut row = vec![
-            Cell::text(bare(one.fit)),
-            Cell::text(if one.frontier { "●" } else { "" }),
-            Cell::text(errors.join(", ")),
-        ];
-        row.extend(timing(&one.cost.device, has_device));
-        row.push(Cell::number(one.cost.lanes_f32_ns, 3));
-        row.push(Cell::number(one.cost.lanes_f64_ns, 3));
-        if one.fit == one.cost.baseline {
-            row = row.into_iter().map(|cell| cell.highlighted(Highlight::Subject)).collect();
+    let timed = |of: fn(&Measurement) -> Cell| {
+        move |one: &&Standing<'_>| match &one.cost.device {
+            Measured::Value(timing) => of(timing),
+            // A form that a device there was did not measure says why.
+            Measured::NotMeasured(why) if has_device => Cell::missing(why.as_str()),
+            Measured::NotMeasured(_) => Cell::missing("no device"),
         }
-        row
     };
-    Table::new(
+    Table::over(
         "Cost per evaluation, the cheapest first. Lanes: one core, interpreted from naga's IR. On \
          the frontier: no fit to the same reference errs less at no more cost.",
-        columns,
+        standings,
     )
-    .with_rows(standings.iter().map(row))
+    .column(Column::code("fit"), |one| Cell::text(bare(one.fit)))
+    .column(Column::text("frontier"), |one| Cell::text(if one.frontier { "●" } else { "" }))
+    .column(Column::text("error, f32"), |one| {
+        let errors = one.error.iter();
+        let errors = errors.map(|(region, error)| format!("{} ({region})", number(*error, 3)));
+        Cell::text(errors.collect::<Vec<_>>().join(", "))
+    })
+    .column(Column::number("device", "ns"), timed(|of| Cell::number(of.net_ns.median, 3)))
+    .column(Column::text("quartiles [ns]"), timed(|of| quartiles(Some(of.net_ns))))
+    .column(
+        Column::number("ratio to baseline", "1"),
+        timed(|of| {
+            Cell::number_or(of.ratio.map(|ratio| ratio.median), 3, "no baseline to refer to")
+        }),
+    )
+    .column(Column::text("quartiles of the ratio"), timed(|of| quartiles(of.ratio)))
+    .column(Column::number("f32 lanes", "ns"), |one| Cell::number(one.cost.lanes_f32_ns, 3))
+    .column(Column::number("f64 lanes", "ns"), |one| Cell::number(one.cost.lanes_f64_ns, 3))
+    .highlighted(Highlight::Subject, |one| one.fit == one.cost.baseline)
+    .table()
 }
 
-/// Time on the device, its quartiles, the ratio to the baseline, its quartiles.
-fn timing(device: &Measured<Measurement>, has_device: bool) -> [Cell; 4] {
-    let span = |from: f64, to: f64| Cell::text(format!("{} – {}", number(from, 3), number(to, 3)));
-    match device {
-        Measured::Value(Measurement { net_ns, ratio, .. }) => [
-            Cell::number(net_ns.median, 3),
-            span(net_ns.p25, net_ns.p75),
-            Cell::number_or(ratio.map(|ratio| ratio.median), 3, "no baseline to refer to"),
-            ratio.map_or_else(|| Cell::text(""), |ratio| span(ratio.p25, ratio.p75)),
-        ],
-        // A form that a device there was did not measure says why.
-        Measured::NotMeasured(reason) => {
-            let why = if has_device { reason.as_str() } else { "no device" };
-            [Cell::missing(why), Cell::text(""), Cell::missing(why), Cell::text("")]
-        }
-    }
+fn quartiles(of: Option<Spread>) -> Cell {
+    let shown = |of: Spread| format!("{} – {}", number(of.p25, 3), number(of.p75, 3));
+    Cell::text(of.map(shown).unwrap_or_default())
 }
 
 fn operations(costs: &Costs) -> Table {
-    let columns = vec![
-        Column::code("fit"),
-        Column::number("add, multiply", "1"),
-        Column::number("divide, root", "1"),
-        Column::number("elementary", "1"),
-        Column::number("branches", "1"),
-        Column::number("table reads", "1"),
+    let kinds: [(&str, fn(&OpCount) -> u32); 5] = [
+        ("add, multiply", |of| of.arithmetic),
+        ("divide, root", |of| of.divide_sqrt),
+        ("elementary", |of| of.elementary),
+        ("branches", |of| of.branches),
+        ("table reads", |of| of.table_reads),
     ];
-    let row = |Cost { name, operations: of, .. }: &Cost| {
-        let counts = [of.arithmetic, of.divide_sqrt, of.elementary, of.branches, of.table_reads];
-        let counts = counts.map(|count| Cell::count(count as usize));
-        [Cell::text(bare(name))].into_iter().chain(counts).collect()
-    };
-    Table::new("Operations in the text.", columns).with_rows(costs.forms.iter().map(row))
+    Table::over("Operations in the text.", &costs.forms)
+        .column(Column::code("fit"), |cost| Cell::text(bare(&cost.name)))
+        .columns(
+            kinds,
+            |(title, _)| Column::number(*title, "1"),
+            |cost, (_, count)| Cell::count(count(&cost.operations) as usize),
+        )
+        .table()
 }
 
 fn cheapest_table(least: &[Cheapest]) -> Table {
-    let columns = vec![
-        Column::text("region"),
-        Column::code("baseline"),
-        Column::text("≤ 10 %"),
-        Column::text("≤ 1 %"),
-        Column::text("≤ 0.1 %"),
-    ];
     let best = |best: &Option<(String, f64)>| match best {
         Some((fit, ratio)) => Cell::text(format!("`{}` ({}×)", bare(fit), number(*ratio, 2))),
         None => Cell::text("none"),
     };
-    Table::new(
+    Table::over(
         "The cheapest fit for an error, region by region, with its cost relative to the baseline in \
          brackets. Errors in f32 by the yardstick of the region.",
-        columns,
+        least,
     )
-    .with_rows(least.iter().map(|one| {
-        let named = [Cell::text(one.region.as_str()), Cell::text(bare(&one.baseline))];
-        named.into_iter().chain(one.fits.iter().map(best)).collect()
-    }))
+    .column(Column::text("region"), |of| Cell::text(of.region.as_str()))
+    .column(Column::code("baseline"), |of| Cell::text(bare(&of.baseline)))
+    .columns(
+        LIMITS.into_iter().enumerate(),
+        |(_, limit)| Column::text(format!("≤ {} %", 100.0 * limit)),
+        |of, (at, _)| best(&of.fits[*at]),
+    )
+    .table()
 }
 
 fn goal_table(verdicts: &[GoalVerdict]) -> Table {
-    let columns = vec![
-        Column::code("fit"),
-        Column::text("error, region"),
-        Column::number("asked", "1"),
-        Column::number("reached", "1"),
-        Column::code("baseline"),
-        Column::number("cost asked", "1"),
-        Column::number("cost", "1"),
-        Column::verdict("verdict"),
-        Column::text("why"),
-    ];
-    Table::new(
+    Table::over(
         "What was set out to be reached, beside what is reached: error on the device (in f32 where \
          there is none) and cost relative to the baseline.",
-        columns,
+        verdicts,
     )
-    .with_rows(verdicts.iter().map(|goal| {
-        vec![
-            Cell::text(bare(&goal.fit)),
-            Cell::text(format!("{}, {}", goal.yardstick, goal.region)),
-            Cell::number(goal.error_asked, 3),
-            Cell::number(goal.error, 3),
-            Cell::text(bare(&goal.baseline)),
-            Cell::number(goal.cost_asked, 3),
-            on_device(&goal.cost, 3),
-            match &goal.met {
-                Measured::Value(true) => Cell::verdict_as(Verdict::Pass, "met"),
-                Measured::Value(false) => Cell::verdict_as(Verdict::Fail, "not met"),
-                Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
-            },
-            Cell::text(goal.why.as_str()),
-        ]
-    }))
+    .column(Column::code("fit"), |goal| Cell::text(bare(&goal.fit)))
+    .column(Column::text("error, region"), |goal| {
+        Cell::text(format!("{}, {}", goal.yardstick, goal.region))
+    })
+    .column(Column::number("asked", "1"), |goal| Cell::number(goal.error_asked, 3))
+    .column(Column::number("reached", "1"), |goal| Cell::number(goal.error, 3))
+    .column(Column::code("baseline"), |goal| Cell::text(bare(&goal.baseline)))
+    .column(Column::number("cost asked", "1"), |goal| Cell::number(goal.cost_asked, 3))
+    .column(Column::number("cost", "1"), |goal| on_device(&goal.cost, 3))
+    .column(Column::verdict("verdict"), |goal| match &goal.met {
+        Measured::Value(true) => Cell::verdict_as(Verdict::Pass, "met"),
+        Measured::Value(false) => Cell::verdict_as(Verdict::Fail, "not met"),
+        Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
+    })
+    .column(Column::text("why"), |goal| Cell::text(goal.why.as_str()))
+    .table()
 }
 
 fn references(costs: &Costs) -> Table {
-    let columns = vec![Column::code("reference"), Column::number("f64", "ns")];
-    Table::new("Cost of the references, one core, for scale.", columns).with_rows(
-        costs
-            .references
-            .iter()
-            .map(|one| vec![Cell::text(one.name.as_str()), Cell::number(one.ns, 3)]),
-    )
+    Table::over("Cost of the references, one core, for scale.", &costs.references)
+        .column(Column::code("reference"), |of| Cell::text(of.name.as_str()))
+        .column(Column::number("f64", "ns"), |of| Cell::number(of.ns, 3))
+        .table()
 }

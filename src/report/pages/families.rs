@@ -8,7 +8,7 @@ use crate::registry;
 use crate::validate::ValidateError;
 use crate::validate::accuracy::Shipped;
 use crate::validate::curves::over_member;
-use crate::validate::family::{Choice, choices, group_rms};
+use crate::validate::family::{Choice, FormOverFamily, choices, group_rms};
 use crate::validate::study::FamilyStudy;
 
 /// Errors below this magnitude are drawn linearly, larger ones by ratio: the forms span decades.
@@ -58,83 +58,59 @@ fn cost(evidence: &Evidence<'_>, fit: &str) -> f64 {
 }
 
 fn forms_table(family: &FamilyStudy, cost: &[f64]) -> Table {
-    let columns = vec![
-        Column::code("fit"),
-        Column::number("free constants", "1"),
-        Column::number("RMS", "1"),
-        Column::number("max", "1"),
-        Column::text("worst member"),
-        Column::text("where"),
-        Column::number("cost", "ns"),
-        Column::text("spread of the constants between sources"),
-    ];
     let mut forms: Vec<_> = family.forms.iter().zip(cost).collect();
     forms.sort_by(|(a, _), (b, _)| b.rms.total_cmp(&a.rms));
-    Table::new(
+    let spread = |form: &FormOverFamily| {
+        let spread = form.constant_spread.iter();
+        let spread = spread.map(|(name, half)| format!("{name} ± {}", number(*half, 2)));
+        let spread = spread.collect::<Vec<_>>().join(", ");
+        Cell::text(if spread.is_empty() { "–".to_owned() } else { spread })
+    };
+    Table::over(
         "Every form over all members, in f32, on held-out points with grazing and the dips among them. \
          Spread: half the difference of a constant between sources of one material, RMS over \
          materials and bands: what a constant is known to.",
-        columns,
+        forms,
     )
-    .with_rows(forms.into_iter().map(|(form, cost)| {
-        let spread = form.constant_spread.iter();
-        let spread: Vec<String> =
-            spread.map(|(name, half)| format!("{name} ± {}", number(*half, 2))).collect();
-        vec![
-            Cell::text(bare(&form.fit)),
-            Cell::count(form.free),
-            Cell::number(form.rms, 3),
-            Cell::number(form.max_abs, 3),
-            Cell::text(form.max_member.as_str()),
-            Cell::text(place(&form.max_at)),
-            Cell::number(*cost, 3),
-            Cell::text(if spread.is_empty() { "–".to_owned() } else { spread.join(", ") }),
-        ]
-    }))
+    .column(Column::code("fit"), |(form, _)| Cell::text(bare(&form.fit)))
+    .column(Column::number("free constants", "1"), |(form, _)| Cell::count(form.free))
+    .column(Column::number("RMS", "1"), |(form, _)| Cell::number(form.rms, 3))
+    .column(Column::number("max", "1"), |(form, _)| Cell::number(form.max_abs, 3))
+    .column(Column::text("worst member"), |(form, _)| Cell::text(form.max_member.as_str()))
+    .column(Column::text("where"), |(form, _)| Cell::text(place(&form.max_at)))
+    .column(Column::number("cost", "ns"), |(_, cost)| Cell::number(**cost, 3))
+    .column(Column::text("spread of the constants between sources"), |(form, _)| spread(form))
+    .table()
 }
 
 fn choice_table(choices: &[Choice]) -> Table {
-    let columns = vec![
-        Column::text("material"),
-        Column::number("spread of the sources, RMS", "1"),
-        Column::code("cheapest within it"),
-        Column::number("its RMS error", "1"),
-        Column::text("because"),
-    ];
-    Table::new(
+    Table::over(
         "For each material, the cheapest form whose error stays within the spread of its sources.",
-        columns,
+        choices,
     )
-    .with_rows(choices.iter().map(|choice| {
-        let none = if choice.spread_rms.is_some() { "none" } else { "–" };
-        vec![
-            Cell::text(choice.group.as_str()),
-            Cell::number_or(choice.spread_rms, 3, "one source"),
-            Cell::text(choice.cheapest.as_deref().map_or(none, bare)),
-            choice.rms.map_or_else(|| Cell::text("–"), |rms| Cell::number(rms, 3)),
-            Cell::text(choice.reason.as_str()),
-        ]
-    }))
+    .column(Column::text("material"), |of| Cell::text(of.group.as_str()))
+    .column(Column::number("spread of the sources, RMS", "1"), |of| {
+        Cell::number_or(of.spread_rms, 3, "one source")
+    })
+    .column(Column::code("cheapest within it"), |of| {
+        let none = if of.spread_rms.is_some() { "none" } else { "–" };
+        Cell::text(of.cheapest.as_deref().map_or(none, bare))
+    })
+    .column(Column::number("its RMS error", "1"), |of| {
+        of.rms.map_or_else(|| Cell::text("–"), |rms| Cell::number(rms, 3))
+    })
+    .column(Column::text("because"), |of| Cell::text(of.reason.as_str()))
+    .table()
 }
 
 fn spread_table(family: &FamilyStudy) -> Table {
-    let columns = vec![
-        Column::text("material"),
-        Column::text("sources"),
-        Column::number("RMS difference", "1"),
-        Column::number("max difference", "1"),
-        Column::text("band of the max"),
-    ];
-    let table = Table::new("How far the sources of a material are apart.", columns);
-    table.with_rows(family.spreads.iter().map(|spread| {
-        vec![
-            Cell::text(spread.group.as_str()),
-            Cell::text(spread.sources.join(", ")),
-            Cell::number(spread.rms, 3),
-            Cell::number(spread.max_abs, 3),
-            Cell::text(spread.max_band.as_str()),
-        ]
-    }))
+    Table::over("How far the sources of a material are apart.", &family.spreads)
+        .column(Column::text("material"), |of| Cell::text(of.group.as_str()))
+        .column(Column::text("sources"), |of| Cell::text(of.sources.join(", ")))
+        .column(Column::number("RMS difference", "1"), |of| Cell::number(of.rms, 3))
+        .column(Column::number("max difference", "1"), |of| Cell::number(of.max_abs, 3))
+        .column(Column::text("band of the max"), |of| Cell::text(of.max_band.as_str()))
+        .table()
 }
 
 fn groups(family: &FamilyStudy) -> Vec<&str> {
@@ -145,35 +121,26 @@ fn groups(family: &FamilyStudy) -> Vec<&str> {
     groups
 }
 
-/// A row per thing that `title` names, and the error of every form there.
-fn errors_table<'a>(
-    caption: &str,
-    title: &str,
-    family: &FamilyStudy,
-    rows: impl Iterator<Item = (&'a str, Vec<Option<f64>>)>,
-) -> Table {
-    let mut columns = vec![Column::text(title)];
-    columns.extend(family.forms.iter().map(|form| Column::number(bare(&form.fit), "1")));
-    Table::new(caption, columns).with_rows(rows.map(|(name, errors)| {
-        let errors = errors.into_iter().map(|e| Cell::number_or(e, 3, "no such member"));
-        [Cell::text(name)].into_iter().chain(errors).collect()
-    }))
-}
-
 fn group_table(family: &FamilyStudy) -> Table {
-    let of = |group| family.forms.iter().map(|form| Some(group_rms(form, group))).collect();
-    let rows = groups(family).into_iter().map(|group| (group, of(group)));
-    let caption = "RMS error per material, all bands and sources together, f32.";
-    errors_table(caption, "material", family, rows)
+    Table::over("RMS error per material, all bands and sources together, f32.", groups(family))
+        .column(Column::text("material"), |group| Cell::text(*group))
+        .columns(&family.forms, named, |group, form| Cell::number(group_rms(form, group), 3))
+        .table()
 }
 
 fn member_table(family: &FamilyStudy) -> Table {
     let members = family.forms.first().map_or(&[][..], |form| &form.members);
-    let rows = members.iter().enumerate().map(|(at, member)| {
-        let rms = family.forms.iter().map(|form| Some(form.members.get(at)?.residuals.rms));
-        (member.label.as_str(), rms.collect())
-    });
-    errors_table("RMS error per member, f32.", "member", family, rows)
+    Table::over("RMS error per member, f32.", members.iter().enumerate())
+        .column(Column::text("member"), |(_, member)| Cell::text(member.label.as_str()))
+        .columns(&family.forms, named, |(at, _), form| {
+            let rms = form.members.get(*at).map(|member| member.residuals.rms);
+            Cell::number_or(rms, 3, "no such member")
+        })
+        .table()
+}
+
+fn named(form: &&FormOverFamily) -> Column {
+    Column::number(bare(&form.fit), "1")
 }
 
 /// Error curves for one member of the groups on which the forms differ most.

@@ -2,47 +2,29 @@
 
 use super::{Evidence, bare};
 use crate::document::{Block, Cell, Column, Section, Table, Verdict};
-use crate::effect::Effect;
+use crate::effect::{Effect, Reference};
 use crate::fit::outcome::{Outcome, Status};
 
 pub(super) fn exact_section(effect: &Effect) -> Section {
-    let references = Table::new(
-        "References: exact values, from formulas that no form shares.",
-        vec![
-            Column::code("reference"),
-            Column::text("what"),
-            Column::text("arguments"),
-            Column::text("accuracy"),
-            Column::text("source"),
-        ],
-    );
-    let references = references.with_rows(effect.references.iter().map(|reference| {
+    let arguments = |reference: &&Reference| {
         let arguments = reference.arguments.iter();
-        let arguments: Vec<String> = arguments
-            .map(|argument| {
-                format!("`{}` [{}] in {}", argument.name, argument.unit, argument.domain)
-            })
-            .collect();
-        vec![
-            Cell::text(reference.name),
-            Cell::text(reference.description),
-            Cell::text(arguments.join("; ")),
-            Cell::text(reference.accuracy),
-            Cell::text(reference.source),
-        ]
-    }));
-    let forms = Table::new(
-        "Forms: approximations, each one WGSL function.",
-        vec![
-            Column::code("form"),
-            Column::text("what"),
-            Column::text("from"),
-            Column::code("text"),
-        ],
-    );
-    let forms = forms.with_rows(effect.forms.iter().map(|form| {
-        [form.name, form.description, form.citation, form.path].map(Cell::text).to_vec()
-    }));
+        let arguments = arguments.map(|of| format!("`{}` [{}] in {}", of.name, of.unit, of.domain));
+        Cell::text(arguments.collect::<Vec<_>>().join("; "))
+    };
+    let references = Table::over(
+        "References: exact values, from formulas that no form shares.",
+        effect.references,
+    )
+    .column(Column::code("reference"), |reference| Cell::text(reference.name))
+    .column(Column::text("what"), |reference| Cell::text(reference.description))
+    .column(Column::text("arguments"), arguments)
+    .column(Column::text("accuracy"), |reference| Cell::text(reference.accuracy))
+    .column(Column::text("source"), |reference| Cell::text(reference.source));
+    let forms = Table::over("Forms: approximations, each one WGSL function.", effect.forms)
+        .column(Column::code("form"), |form| Cell::text(form.name))
+        .column(Column::text("what"), |form| Cell::text(form.description))
+        .column(Column::text("from"), |form| Cell::text(form.citation))
+        .column(Column::code("text"), |form| Cell::text(form.path));
     Section::new("What is exact, and what approximates it").block(references).block(forms)
 }
 
@@ -72,36 +54,25 @@ pub(super) fn fitted_section(evidence: &Evidence<'_>) -> Section {
 }
 
 fn fits<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> Table {
-    let columns = vec![
-        Column::code("fit"),
-        Column::code("form"),
-        Column::code("target"),
-        Column::text("loss"),
-        Column::verdict("status"),
-        Column::text("solver"),
-        Column::number("free", "1"),
-        Column::number("RMS", "1"),
-        Column::number("max", "1"),
-        Column::number("alternations", "1"),
-    ];
-    Table::new(
+    Table::over(
         "Fits to references. RMS and max over the fitted points, of the constants as shipped, in f32.",
-        columns,
+        outcomes,
     )
-    .with_rows(outcomes.map(|outcome| {
-        vec![
-            Cell::text(bare(&outcome.name)),
-            Cell::text(bare(&outcome.form)),
-            Cell::text(outcome.target.as_str()),
-            Cell::text(outcome.loss.as_str()),
-            status(outcome),
-            Cell::text(outcome.solver.split(" (").next().unwrap_or_default()),
-            Cell::count(outcome.free_count()),
-            Cell::number(outcome.residuals_f32.rms, 4),
-            Cell::number(outcome.residuals_f32.max_abs, 4),
-            outcome.equioscillations.map_or_else(|| Cell::text("–"), Cell::count),
-        ]
-    }))
+    .column(Column::code("fit"), |of| Cell::text(bare(&of.name)))
+    .column(Column::code("form"), |of| Cell::text(bare(&of.form)))
+    .column(Column::code("target"), |of| Cell::text(of.target.as_str()))
+    .column(Column::text("loss"), |of| Cell::text(of.loss.as_str()))
+    .column(Column::verdict("status"), |of| status(of))
+    .column(Column::text("solver"), |of| {
+        Cell::text(of.solver.split(" (").next().unwrap_or_default())
+    })
+    .column(Column::number("free", "1"), |of| Cell::count(of.free_count()))
+    .column(Column::number("RMS", "1"), |of| Cell::number(of.residuals_f32.rms, 4))
+    .column(Column::number("max", "1"), |of| Cell::number(of.residuals_f32.max_abs, 4))
+    .column(Column::number("alternations", "1"), |of| {
+        of.equioscillations.map_or_else(|| Cell::text("–"), Cell::count)
+    })
+    .table()
 }
 
 /// How a fit ended.
@@ -116,52 +87,40 @@ pub fn status(outcome: &Outcome) -> Cell {
 
 /// Every constant of `outcomes`, a row each.
 pub fn constants<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> Table {
-    let columns = vec![
-        Column::code("fit"),
-        Column::code("constant"),
-        Column::number("f64", "1"),
-        Column::number("f32", "1"),
-        Column::code("bits"),
-        Column::text("role"),
-        Column::number("standard error", "1"),
-    ];
-    let rows = outcomes.flat_map(|outcome| {
-        outcome.parameters.iter().map(|(name, constant)| {
-            let why = constant.why_no_stderr.as_deref();
-            vec![
-                Cell::text(bare(&outcome.name)),
-                Cell::text(name.as_str()),
-                Cell::number(constant.value, 17),
-                Cell::single(constant.f32),
-                Cell::text(constant.f32_hex.as_str()),
-                Cell::text(constant.role.as_str()),
-                constant
-                    .stderr
-                    .map_or_else(|| Cell::text(why.unwrap_or("–")), |e| Cell::number(e, 4)),
-            ]
-        })
+    let constants = outcomes.flat_map(|outcome| {
+        outcome.parameters.iter().map(|(name, constant)| (&outcome.name, name, constant))
     });
-    Table::new("Constants: the optimum in f64, and the f32 that ships.", columns).with_rows(rows)
+    Table::over("Constants: the optimum in f64, and the f32 that ships.", constants)
+        .column(Column::code("fit"), |(fit, ..)| Cell::text(bare(fit)))
+        .column(Column::code("constant"), |(_, name, _)| Cell::text(name.as_str()))
+        .column(Column::number("f64", "1"), |(.., constant)| Cell::number(constant.value, 17))
+        .column(Column::number("f32", "1"), |(.., constant)| Cell::single(constant.f32))
+        .column(Column::code("bits"), |(.., constant)| Cell::text(constant.f32_hex.as_str()))
+        .column(Column::text("role"), |(.., constant)| Cell::text(constant.role.as_str()))
+        .column(Column::number("standard error", "1"), |(.., constant)| {
+            let why = || Cell::text(constant.why_no_stderr.as_deref().unwrap_or("–"));
+            constant.stderr.map_or_else(why, |error| Cell::number(error, 4))
+        })
+        .table()
 }
 
 /// The constants of a family, a row per member.
 pub fn family_constants(members: &[Outcome]) -> Table {
-    let names: Vec<&String> =
-        members.first().map_or_else(Vec::new, |m| m.parameters.keys().collect());
-    let mut columns = vec![Column::code("member"), Column::verdict("status")];
-    columns.extend(names.iter().map(|name| Column::number(name.as_str(), "1")));
-    columns.extend([Column::number("RMS", "1"), Column::number("max", "1")]);
-    let rows = members.iter().map(|outcome| {
-        let label = outcome.name.split_once('#').map_or(outcome.name.as_str(), |(_, label)| label);
-        let mut row = vec![Cell::text(label), status(outcome)];
-        row.extend(names.iter().map(|name| {
-            let constant = outcome.parameters.get(*name);
-            constant.map_or_else(|| Cell::missing("absent"), |c| Cell::single(c.f32))
-        }));
-        row.push(Cell::number(outcome.residuals_f32.rms, 4));
-        row.push(Cell::number(outcome.residuals_f32.max_abs, 4));
-        row
-    });
-    Table::new("Constants as shipped (f32), and residuals over the fitted points.", columns)
-        .with_rows(rows)
+    let names = members.first().map_or_else(Vec::new, |m| m.parameters.keys().collect());
+    let label = |of: &&Outcome| of.name.split_once('#').map_or(of.name.clone(), |(_, l)| l.into());
+    let caption = "Constants as shipped (f32), and residuals over the fitted points.";
+    Table::over(caption, members)
+        .column(Column::code("member"), |of| Cell::text(label(of)))
+        .column(Column::verdict("status"), |of| status(of))
+        .columns(
+            names,
+            |name| Column::number(name.as_str(), "1"),
+            |of, name| {
+                let constant = of.parameters.get(*name);
+                constant.map_or_else(|| Cell::missing("absent"), |c| Cell::single(c.f32))
+            },
+        )
+        .column(Column::number("RMS", "1"), |of| Cell::number(of.residuals_f32.rms, 4))
+        .column(Column::number("max", "1"), |of| Cell::number(of.residuals_f32.max_abs, 4))
+        .table()
 }

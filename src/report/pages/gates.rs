@@ -57,37 +57,29 @@ pub fn summary(gates: &[&Judgement]) -> String {
 
 /// A row per gate: verdict, what was measured of which limit and where, and why the gate is there.
 pub fn table(caption: &str, gates: &[&Judgement]) -> Table {
-    let columns = vec![
-        Column::verdict("verdict"),
-        Column::code("subject"),
-        Column::code("metric"),
-        Column::text("domain"),
-        Column::figures("measured"),
-        Column::figures("limit"),
-        Column::number("left", "%"),
-        Column::text("where"),
-        Column::text("why it is there"),
-    ];
-    Table::new(caption, columns).with_rows(gates.iter().map(|judgement| {
-        let gate = &judgement.gate;
-        let reason = judgement.reason.as_deref();
-        let (measured, place) = match &judgement.measured {
-            Some(measured) => {
-                let place = reason.map_or_else(|| measured.place(), str::to_owned);
-                (Cell::number(measured.value, 5), place)
-            }
-            None => (Cell::missing(reason.unwrap_or("no reason given")), String::new()),
-        };
-        vec![
-            Cell::verdict(judgement.verdict),
-            Cell::text(gate.subject.as_str()),
-            Cell::text(format!("{} {}", gate.metric, gate.precision)),
-            Cell::text(gate.domain.as_ref().map_or("as fitted".to_owned(), ToString::to_string)),
-            measured,
-            Cell::number(gate.limit, 5),
-            judgement.margin().map_or_else(|| Cell::text(""), |left| Cell::number(100.0 * left, 3)),
-            Cell::text(place),
-            Cell::text(gate.why.as_str()),
-        ]
-    }))
+    Table::over(caption, gates)
+        .column(Column::verdict("verdict"), |of| Cell::verdict(of.verdict))
+        .column(Column::code("subject"), |of| Cell::text(of.gate.subject.as_str()))
+        .column(Column::code("metric"), |of| {
+            Cell::text(format!("{} {}", of.gate.metric, of.gate.precision))
+        })
+        .column(Column::text("domain"), |of| {
+            Cell::text(of.gate.domain.as_ref().map_or("as fitted".to_owned(), ToString::to_string))
+        })
+        .column(Column::figures("measured"), |of| {
+            let why = of.reason.as_deref().unwrap_or_default();
+            Cell::number_or(of.measured.as_ref().map(|found| found.value), 5, why)
+        })
+        .column(Column::figures("limit"), |of| Cell::number(of.gate.limit, 5))
+        .column(Column::number("left", "%"), |of| {
+            of.margin().map_or_else(|| Cell::text(""), |left| Cell::number(100.0 * left, 3))
+        })
+        .column(Column::text("where"), |of| {
+            Cell::text(of.measured.as_ref().map_or_else(String::new, |found| match &of.reason {
+                Some(reason) => reason.clone(),
+                None => found.place(),
+            }))
+        })
+        .column(Column::text("why it is there"), |of| Cell::text(of.gate.why.as_str()))
+        .table()
 }

@@ -18,58 +18,45 @@ pub fn index_page(effects: &[Evidence<'_>], gates: &[&Judgement]) -> Page {
 }
 
 fn overview(effects: &[Evidence<'_>]) -> Table {
-    let columns = vec![
-        Column::text("effect"),
-        Column::number("forms", "1"),
-        Column::number("fits", "1"),
-        Column::number("gates passed", "1"),
-        Column::number("gates", "1"),
-        Column::text("device"),
-    ];
-    Table::new("Effects.", columns).with_rows(effects.iter().map(|evidence| {
-        let members = evidence.families.iter().map(|family| family.members.len());
-        let passed = |gate: &&&Judgement| matches!(gate.verdict, Verdict::Pass | Verdict::Warn);
-        vec![
-            Cell::link(evidence.effect.title, format!("{}.html", evidence.effect.name)),
-            Cell::count(evidence.effect.forms.len()),
-            Cell::count(evidence.study.fits.len() + members.sum::<usize>()),
-            Cell::count(evidence.gates.iter().filter(passed).count()),
-            Cell::count(evidence.gates.len()),
-            match &evidence.costs.adapter {
-                Measured::Value(adapter) => Cell::text(adapter.to_string()),
-                Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
-            },
-        ]
-    }))
+    let passed = |gate: &&&Judgement| matches!(gate.verdict, Verdict::Pass | Verdict::Warn);
+    Table::over("Effects.", effects)
+        .column(Column::text("effect"), |of| {
+            Cell::link(of.effect.title, format!("{}.html", of.effect.name))
+        })
+        .column(Column::number("forms", "1"), |of| Cell::count(of.effect.forms.len()))
+        .column(Column::number("fits", "1"), |of| {
+            let members = of.families.iter().map(|family| family.members.len());
+            Cell::count(of.study.fits.len() + members.sum::<usize>())
+        })
+        .column(Column::number("gates passed", "1"), |of| {
+            Cell::count(of.gates.iter().filter(passed).count())
+        })
+        .column(Column::number("gates", "1"), |of| Cell::count(of.gates.len()))
+        .column(Column::text("device"), |of| match &of.costs.adapter {
+            Measured::Value(adapter) => Cell::text(adapter.to_string()),
+            Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
+        })
+        .table()
 }
 
 /// The first error of every fit, beside its cost.
 fn errors(effects: &[Evidence<'_>]) -> Table {
-    let columns = vec![
-        Column::text("effect"),
-        Column::code("fit"),
-        Column::text("error"),
-        Column::number("value", "1"),
-        Column::number("cost", "ns"),
-    ];
-    let rows = effects.iter().flat_map(|evidence| {
-        evidence.study.fits.iter().filter_map(|fit| {
-            let (_, accuracy) = fit.regions.first()?;
-            let cost = evidence.costs.forms.iter().find(|cost| cost.name == fit.outcome.name);
-            Some(vec![
-                Cell::text(evidence.effect.title),
-                Cell::text(bare(&fit.outcome.name)),
-                Cell::text(accuracy.yardstick.words()),
-                Cell::number(accuracy.headline(), 3),
-                Cell::number_or(cost.map(|cost| cost.nanoseconds()), 3, "not timed"),
-            ])
-        })
+    let fits = effects.iter().flat_map(|of| {
+        of.study.fits.iter().filter_map(move |fit| Some((of, fit, &fit.regions.first()?.1)))
     });
-    Table::new(
+    Table::over(
         "Fits to references over the first region in which they are judged, in f32, by the error by \
          which forms are compared there. Cost: on the device, or on f32 lanes where no device was \
          measured.",
-        columns,
+        fits,
     )
-    .with_rows(rows)
+    .column(Column::text("effect"), |(of, ..)| Cell::text(of.effect.title))
+    .column(Column::code("fit"), |(_, fit, _)| Cell::text(bare(&fit.outcome.name)))
+    .column(Column::text("error"), |(.., accuracy)| Cell::text(accuracy.yardstick.words()))
+    .column(Column::number("value", "1"), |(.., accuracy)| Cell::number(accuracy.headline(), 3))
+    .column(Column::number("cost", "ns"), |(of, fit, _)| {
+        let cost = of.costs.forms.iter().find(|cost| cost.name == fit.outcome.name);
+        Cell::number_or(cost.map(|cost| cost.nanoseconds()), 3, "not timed")
+    })
+    .table()
 }
