@@ -10,7 +10,7 @@ use super::context::Context;
 use super::output::line;
 use super::progress;
 use super::studies::{self, Results};
-use crate::document::{Page, Provenance};
+use crate::document::{Colophon, Page};
 use crate::gate::{Check, Judgement, SCENES};
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
@@ -105,7 +105,7 @@ pub(super) fn write(
         let names = surfaces.iter().map(|of| of.scene.name.as_str()).collect();
         pages.push(surfaces_page(&surfaces, &of_scenes(names))?);
     }
-    let provenance = Provenance {
+    let provenance = Colophon {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         adapter: device.value().map(|device| device.description().to_string()),
         command: "striae report".to_owned(),

@@ -110,25 +110,12 @@ fn extension(path: &Path) -> String {
 }
 
 fn list_settings(simulator: &Simulator, context: &Context) -> anyhow::Result<Ending> {
-    let objects: Vec<_> = simulator
-        .parameters
-        .iter()
-        .map(|p| {
-            json!({
-                "name": p.name,
-                "unit": p.unit,
-                "default": p.default,
-                "description": p.description,
-            })
-        })
-        .collect();
-    context.output.sections(&objects, || {
-        let columns = ["setting", "unit", "default", "description"].map(document::Column::text);
-        let rows = simulator
-            .parameters
-            .iter()
-            .map(|p| [p.name, p.unit, p.default, p.description].map(Cell::text).to_vec());
-        let table = document::Table::new("", columns.to_vec()).with_rows(rows);
+    context.output.sections(&simulator.parameters, || {
+        let table = document::Table::over("", simulator.parameters)
+            .column(document::Column::text("setting"), |of| Cell::text(of.name))
+            .column(document::Column::text("unit"), |of| Cell::text(of.unit))
+            .column(document::Column::text("default"), |of| Cell::text(of.default))
+            .column(document::Column::text("description"), |of| Cell::text(of.description));
         vec![Section::default().block(table)]
     })?;
     Ok(Ending::Done)

@@ -5,17 +5,17 @@
 
 use serde::Serialize;
 
-use super::{Page, Provenance};
+use super::{Colophon, Page};
 
 /// The report: `schema`, `provenance`, `pages`.
 ///
 /// # Errors
 /// [`serde_json::Error`] if the model cannot be written as JSON, which no finite model provokes.
-pub fn report(pages: &[Page], provenance: &Provenance) -> Result<String, serde_json::Error> {
+pub fn report(pages: &[Page], provenance: &Colophon) -> Result<String, serde_json::Error> {
     #[derive(Serialize)]
     struct Report<'a> {
         schema: u32,
-        provenance: &'a Provenance,
+        provenance: &'a Colophon,
         pages: &'a [Page],
     }
     let mut json = serde_json::to_string(&Report { schema: 1, provenance, pages })?;

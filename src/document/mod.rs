@@ -284,7 +284,7 @@ pub struct Picture {
 
 /// Where a report comes from: in the footer of every page and at the head of the JSON.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Provenance {
+pub struct Colophon {
     /// Version of striae.
     pub version: String,
     /// Adapter, driver and backend; absent when no device was measured.
@@ -297,7 +297,7 @@ pub struct Provenance {
     pub facts: Vec<(String, String)>,
 }
 
-impl Provenance {
+impl Colophon {
     /// The adapter, or that there was none.
     #[must_use]
     pub fn adapter_or_not_measured(&self) -> &str {

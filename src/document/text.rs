@@ -3,7 +3,7 @@
 use comfy_table::{Attribute, CellAlignment, Color, ContentArrangement, LineStyle, TableStyle};
 
 use super::cell::{Highlight, Value, Verdict};
-use super::{Align, Block, Cell, Page, Provenance, Section, Table};
+use super::{Align, Block, Cell, Colophon, Page, Section, Table};
 
 /// A rule under the header and nothing else, so that a table can be read, searched and pasted.
 const STYLE: TableStyle =
@@ -50,7 +50,7 @@ pub fn table(table: &Table, layout: Layout) -> String {
 
 /// The report: every page, one after the other, with the provenance at the end.
 #[must_use]
-pub fn report(pages: &[Page], provenance: &Provenance) -> String {
+pub fn report(pages: &[Page], provenance: &Colophon) -> String {
     let layout = Layout { text_width: Some(READABLE), ..Layout::default() };
     let mut printer = Printer { layout, out: String::new() };
     for page in pages {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::shell::render_page;
 use crate::document::plot::PlotError;
-use crate::document::{Page, Provenance};
+use crate::document::{Colophon, Page};
 use crate::document::{json, text};
 use crate::table::TableError;
 use crate::table::store::atomic_write;
@@ -84,11 +84,7 @@ struct Manifest {
 /// # Errors
 /// [`SiteError`] if a name is unusable or used twice, a figure cannot be drawn, or a file cannot be
 /// written.
-pub fn write_site(
-    dir: &Path,
-    pages: &[Page],
-    provenance: &Provenance,
-) -> Result<Written, SiteError> {
+pub fn write_site(dir: &Path, pages: &[Page], provenance: &Colophon) -> Result<Written, SiteError> {
     unique("page slug", pages.iter().map(|p| p.slug.as_str()))?;
     let figures = pages.iter().flat_map(|p| p.figures().map(|f| f.file_stem.as_str()));
     let pictures = pages.iter().flat_map(|p| p.pictures().map(|f| f.file_stem.as_str()));

@@ -4,7 +4,6 @@ use super::{Evidence, bare, device_notice, on_device};
 use crate::document::plot::{Axis, Plot, Series};
 use crate::document::{Block, Cell, Column, Figure, Highlight, Section, Table, Verdict, number};
 use crate::effect::{Effect, Yardstick};
-use crate::form::OpCount;
 use crate::gpu::{Measurement, Spread};
 use crate::numeric::measured::Measured;
 use crate::validate::cheapest::{Cheapest, LIMITS, cheapest};
@@ -188,19 +187,18 @@ fn quartiles(of: Option<Spread>) -> Cell {
 }
 
 fn operations(costs: &Costs) -> Table {
-    let kinds: [(&str, fn(&OpCount) -> u32); 5] = [
-        ("add, multiply", |of| of.arithmetic),
-        ("divide, root", |of| of.divide_sqrt),
-        ("elementary", |of| of.elementary),
-        ("branches", |of| of.branches),
-        ("table reads", |of| of.table_reads),
-    ];
+    let kinds = ["add, multiply", "divide, root", "elementary", "branches", "table reads"];
     Table::over("Operations in the text.", &costs.forms)
         .column(Column::code("fit"), |cost| Cell::text(bare(&cost.name)))
         .columns(
-            kinds,
-            |(title, _)| Column::number(*title, "1"),
-            |cost, (_, count)| Cell::count(count(&cost.operations) as usize),
+            kinds.into_iter().enumerate(),
+            |(_, kind)| Column::number(*kind, "1"),
+            |cost, (at, _)| {
+                let of = &cost.operations;
+                let counts =
+                    [of.arithmetic, of.divide_sqrt, of.elementary, of.branches, of.table_reads];
+                Cell::count(counts[*at] as usize)
+            },
         )
         .table()
 }
