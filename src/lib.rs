@@ -21,7 +21,7 @@ pub mod fit;
 pub mod project;
 pub mod validate;
 pub mod render;
-pub mod report;
 pub mod gate;
+pub mod report;
 pub mod run;
 pub mod cli;

@@ -278,6 +278,24 @@ fn gates_pass_in_every_format() {
 }
 
 #[test]
+fn gates_that_pass_are_listed_on_request_and_coloured_on_request() {
+    let project = Project::fitted();
+    let check = |arguments: &[&str]| {
+        let mut command = project.striae();
+        let output = command.arg("check").args(arguments).output().expect("runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    let (quiet, all, coloured) =
+        (check(&[]), check(&["--all"]), check(&["--all", "--color", "always"]));
+    assert!(!quiet.contains("sine_integral/published"), "{quiet}");
+    assert!(all.contains("sine_integral/published") && !all.contains('\u{1b}'), "{all}");
+    assert!(coloured.contains("\u{1b}["), "{coloured}");
+    let last = all.find("2 gates: 2 passed").expect("a line that sums up");
+    assert!(all.find("sine_integral/published").is_some_and(|gate| gate < last), "{all}");
+}
+
+#[test]
 fn a_gate_that_fails_ends_with_one_in_every_format() {
     let project = Project::fitted();
     project.write("fits/gates.toml", GATES.replace("0.05105", "0.05"));

@@ -9,6 +9,7 @@ use quick_xml::Reader;
 use quick_xml::events::Event;
 use report_sample::{pages, provenance};
 use striae::document::plot::{Axis, Plot, Series};
+use striae::document::text::Layout;
 use striae::document::{Block, Cell, Column, Figure, Inline, Page, Section, Span, Table};
 use striae::document::{json, text};
 use striae::report::html::{SiteError, write_site};
@@ -360,8 +361,8 @@ fn short_rows_show_what_they_lack_and_empty_tables_say_so() -> Result {
     let mut short = Table::new("short", columns);
     short.push(vec![Cell::text("x")]);
     assert_eq!(short.rows()[0][1], Cell::missing("no value given"));
-    assert!(text::table(&short).contains("g: b [1]"));
-    assert!(text::table(&empty).contains("nothing to show"));
+    assert!(text::table(&short, Layout::default()).contains("g: b [1]"));
+    assert!(text::table(&empty, Layout::default()).contains("nothing to show"));
     let page = Page::new("p", "t", "s").section(Section::new("s").block(empty).block(short));
     let dir = tempfile::tempdir()?;
     write_site(dir.path(), &[page], &provenance())?;
@@ -392,6 +393,10 @@ fn numbers_show_the_digits_asked_for() {
     for (value, digits, shown) in [
         (0.05098, 4, "0.05098"),
         (0.050_983_4, 4, "0.05098"),
+        // Zeros say that digits were cut off behind them.
+        (0.050_999_6, 4, "0.05100"),
+        (0.5, 4, "0.5"),
+        (0.1 + 0.2, 17, "0.30000000000000004"),
         (1.234_567e-7, 3, "1.23e-7"),
         (999.96, 4, "1000"),
         (-12.5, 3, "-12.5"),

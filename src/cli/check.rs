@@ -7,14 +7,18 @@ use clap::{Args, ValueEnum};
 
 use super::Ending;
 use super::context::Context;
-use super::output::{self, significant, table};
-use crate::gate::{self, Check, Precision, Proofs, Verdict};
+use super::output;
+use crate::document::text::{self, Layout};
+use crate::document::{Block, Cell, Column, Section, Table, Verdict};
+use crate::gate::{self, Check, Judgement, Precision, Proofs};
 use crate::gpu;
 use crate::numeric::measured::Measured;
+use crate::report::pages::{by_attention, gate_table, summary};
 use crate::run::Run;
 
 const MORE: &str = "\
-A gate of fits/gates.toml is measured afresh, with the committed constants on points that were not
+Gates that failed, were not measured or are close to their limit are listed, failures first; --all
+lists the others too. A gate of fits/gates.toml is measured afresh, with the committed constants on points that were not
 fitted. Every spec is fitted again in memory, and its constants must be the committed ones. A gate
 on the device without a device is shown as not measured; with STRIAE_REQUIRE_GPU=1 that ends with
 exit code 4.
@@ -40,6 +44,9 @@ pub(super) struct Arguments {
     /// Show that every gate can fail
     #[arg(long)]
     prove: bool,
+    /// List the gates that pass too
+    #[arg(long)]
+    all: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -63,7 +70,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     let gates = arguments.gates.as_deref();
     let check = run_for(gates, context)?.check(gates, arguments.prove)?;
     match format {
-        Format::Human => output::to_stdout(&text(&check))?,
+        Format::Human => context.output.sections(&check, || sections(&check, arguments.all))?,
         Format::Json => {
             output::to_stdout(&format!("{}\n", serde_json::to_string_pretty(&check)?))?;
         }
@@ -89,89 +96,67 @@ fn run_for(gates: Option<&Path>, context: &Context) -> anyhow::Result<Run> {
     context.run()
 }
 
-/// Tables of verdicts, and a line that sums them up.
+/// The verdicts as text: what needs attention, and lines that sum up.
 pub(super) fn text(check: &Check) -> String {
-    let mut text = gates(check);
-    text.push('\n');
-    text.push_str(&constants(check));
-    if let Some(proofs) = &check.proofs {
-        text.push('\n');
-        text.push_str(&proved(proofs));
+    text::sections(&sections(check, false), Layout::default())
+}
+
+/// What needs attention, and lines that sum up; with `all` the gates that pass too.
+fn sections(check: &Check, all: bool) -> Vec<Section> {
+    let gates: Vec<&Judgement> = check.gates.iter().collect();
+    let (passed, attention) = by_attention(&gates);
+    let mut section = Section::new("Gates");
+    if !attention.is_empty() {
+        section = section.block(gate_table("", &attention));
     }
-    text
+    if all && !passed.is_empty() {
+        section = section.block(gate_table("Gates that pass:", &passed));
+    }
+    // The line that sums up comes last, where the eye ends.
+    let section = section.paragraph(summary(&gates));
+    let mut sections = vec![section, constants(check)];
+    sections.extend(check.proofs.as_ref().map(proved));
+    sections
 }
 
-fn gates(check: &Check) -> String {
-    let row = |judgement: &gate::Judgement| {
-        let gate = &judgement.gate;
-        let domain = gate.domain.as_ref().map_or_else(|| "as fitted".to_owned(), |d| d.to_string());
-        let measured = judgement.measured.as_ref();
-        let left = judgement.margin().map(|margin| format!("{:.2} %", 100.0 * margin));
-        let place = measured.map(gate::Reached::place).unwrap_or_default();
-        vec![
-            judgement.verdict.name().to_owned(),
-            gate.subject.clone(),
-            format!("{} {}", gate.metric, gate.precision),
-            domain,
-            measured.map_or_else(String::new, |m| significant(m.value, 5)),
-            significant(gate.limit, 5),
-            left.unwrap_or_default(),
-            judgement.reason.clone().unwrap_or(place),
-        ]
-    };
-    let header =
-        ["verdict", "subject", "metric", "domain", "measured", "limit", "left", "where or why"];
-    let count = |wanted| check.gates.iter().filter(|j| j.verdict == wanted).count();
-    format!(
-        "{}\n{} gates: {} passed, {} of them with a warning, {} not measured, {} failed\n",
-        table(&header, check.gates.iter().map(row).collect()),
-        check.gates.len(),
-        count(Verdict::Pass) + count(Verdict::Warn),
-        count(Verdict::Warn),
-        count(Verdict::NotMeasured),
-        count(Verdict::Fail),
-    )
-}
-
-fn constants(check: &Check) -> String {
+fn constants(check: &Check) -> Section {
     let failed: Vec<_> = check.constants.iter().filter(|c| c.verdict == Verdict::Fail).collect();
-    let mut text = format!(
-        "constants reproduce in {} of {} fits\n",
-        check.constants.len() - failed.len(),
-        check.constants.len()
-    );
-    for constants in failed {
-        text.push_str(&format!("FAIL {}: {}\n", constants.fit, constants.detail));
+    let (good, of) = (check.constants.len() - failed.len(), check.constants.len());
+    let mut section = Section::new("Constants");
+    if !failed.is_empty() {
+        let table = Table::over("", failed)
+            .column(Column::verdict("verdict"), |of| Cell::verdict(of.verdict))
+            .column(Column::code("fit"), |of| Cell::text(of.fit.as_str()))
+            .column(Column::text("why"), |of| Cell::text(of.detail.as_str()));
+        section = section.block(table);
     }
-    text
+    section.paragraph(format!("constants reproduce in {good} of {of} fits"))
 }
 
-fn proved(proofs: &Proofs) -> String {
-    let row = |proof: &gate::Proof| {
-        let step = proof.step.map_or_else(|| "none".to_owned(), |s| format!("{:+} %", 100.0 * s));
-        vec![
-            proof.line.to_string(),
-            proof.subject.clone(),
-            proof.metric.name().to_owned(),
-            proof.constant.clone(),
-            step,
-            proof.value.map_or_else(String::new, |value| significant(value, 5)),
-            significant(proof.limit, 5),
-            format!("{} of {}", proof.alone, proof.of),
-        ]
-    };
-    let header =
-        ["line", "subject", "metric", "constant", "trips at", "measured", "limit", "fits alone"];
-    let mut text = table(&header, proofs.proofs.iter().map(row).collect());
+fn proved(proofs: &Proofs) -> Section {
+    let step = |step: f64| Cell::text(format!("{:+} %", 100.0 * step));
+    let none = |word: &'static str| move || Cell::text(word);
+    let table = Table::over("", &proofs.proofs)
+        .column(Column::figures("line"), |of| Cell::count(of.line))
+        .column(Column::code("subject"), |of| Cell::text(of.subject.as_str()))
+        .column(Column::code("metric"), |of| Cell::text(of.metric.name()))
+        .column(Column::code("constant"), |of| Cell::text(of.constant.as_str()))
+        .column(Column::figures("trips at"), |of| of.step.map_or_else(none("none"), step))
+        .column(Column::figures("measured"), |of| {
+            of.value.map_or_else(none(""), |value| Cell::number(value, 5))
+        })
+        .column(Column::figures("limit"), |of| Cell::number(of.limit, 5))
+        .column(Column::text("fits alone"), |of| Cell::text(format!("{} of {}", of.alone, of.of)));
+    let mut section = Section::new("Proofs that gates can fail").block(table);
     if proofs.without_device > 0 {
         let count = proofs.without_device;
-        text.push_str(&format!("{count} gates on the device were tried on f32 lanes instead\n"));
-    }
-    for defect in &proofs.defects {
-        text.push_str(&format!("DEFECT {defect}\n"));
+        section = section
+            .paragraph(format!("{count} gates on the device were tried on f32 lanes instead"));
     }
     if proofs.defects.is_empty() {
-        text.push_str("every gate can fail, and every constant has a gate that notices it\n");
+        return section
+            .paragraph("every gate can fail, and every constant has a gate that notices it");
     }
-    text
+    let defects = proofs.defects.iter().map(|defect| format!("DEFECT {defect}").into());
+    section.block(Block::List(defects.collect()))
 }

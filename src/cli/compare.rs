@@ -127,7 +127,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     }
     let passed = judgements.iter().all(Judgement::passed);
     let comparison = Comparison { a, b, compared: &compared, judgements: &judgements };
-    context.output.result(&comparison.json(), || comparison.text())?;
+    context.output.sections(&comparison.json(), || vec![comparison.section()])?;
     for note in compared.notes() {
         context.output.note(&note);
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::compare::Metric;
-use super::output::{significant, table};
+use crate::document::{Cell, Column, Section, Table, number};
 use crate::render::compare::columns::ColumnDifference;
 use crate::render::compare::flip::FlipMap;
 use crate::render::compare::metrics::{Difference, ImageDifference};
@@ -148,58 +148,58 @@ pub(super) struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// As tables and lines.
-    pub(super) fn text(&self) -> String {
-        let mut text = format!("{} against {}\n", self.a.display(), self.b.display());
-        match self.compared {
+    /// For a reader.
+    pub(super) fn section(&self) -> Section {
+        let rows: Vec<Vec<Cell>> = match self.compared {
             Compared::Tables(columns) => {
                 let row = |column: &ColumnDifference| {
                     let name = match column.unit.as_str() {
                         "1" => column.name.clone(),
                         unit => format!("{} [{unit}]", column.name),
                     };
-                    let place = format!("row {}", column.difference.max_at + 1);
-                    numbers(name, &column.difference, place)
+                    numbers(
+                        &name,
+                        &column.difference,
+                        format!("row {}", column.difference.max_at + 1),
+                    )
                 };
-                text.push_str(&table(&HEADER, columns.iter().map(row).collect()));
+                columns.iter().map(row).collect()
             }
             Compared::Images(images) => {
-                let ImageComparison { difference, flip, z, scale } = images.as_ref();
-                let mut rows: Vec<Vec<String>> = difference
-                    .channels
-                    .iter()
-                    .map(|(name, d)| {
-                        let (x, y) = difference.pixel(d.max_at);
-                        numbers(name.clone(), d, format!("x {x}, y {y}"))
-                    })
-                    .collect();
+                let difference = &images.difference;
+                let channel = |(name, d): &(String, Difference)| {
+                    let (x, y) = difference.pixel(d.max_at);
+                    numbers(name, d, format!("x {x}, y {y}"))
+                };
                 let place = difference.max_place();
                 let place = format!("x {}, y {}, {}", place.x, place.y, place.channel);
-                rows.push(numbers("all".to_owned(), &difference.all, place));
-                text.push_str(&table(&HEADER, rows));
-                text.push_str(&match flip {
-                    Ok(flip) => {
-                        format!("FLIP {} ({})\n", significant(flip.value, 5), flip.conditions)
-                    }
-                    Err(why) => format!("FLIP not defined: {why}\n"),
-                });
-                if let Some(z) = z {
-                    text.push_str(&noise(z));
-                }
-                if let Some(scale) = scale {
-                    text.push_str(&format!("error map from 0 to {scale} of the reference's RMS\n"));
-                }
+                let all = numbers("all", &difference.all, place);
+                difference.channels.iter().map(channel).chain([all]).collect()
+            }
+        };
+        let mut columns = vec![Column::text("")];
+        columns.extend(["mean", "reference", "rms", "relative rms", "max"].map(Column::figures));
+        columns.push(Column::text("at"));
+        let caption = format!("{} against {}", self.a.display(), self.b.display());
+        let mut section = Section::default().block(Table::new(caption, columns).with_rows(rows));
+        if let Compared::Images(images) = self.compared {
+            section = section.paragraph(match &images.flip {
+                Ok(flip) => format!("FLIP {} ({})", number(flip.value, 5), flip.conditions),
+                Err(why) => format!("FLIP not defined: {why}"),
+            });
+            if let Some(z) = &images.z {
+                section = section.paragraph(noise(z));
+            }
+            if let Some(scale) = images.scale {
+                section = section
+                    .paragraph(format!("error map from 0 to {scale} of the reference's RMS"));
             }
         }
-        for judgement in self.judgements {
+        self.judgements.iter().fold(section, |section, judgement| {
             let verdict = if judgement.passed() { "PASS" } else { "FAIL" };
-            let (value, limit) = (significant(judgement.value, 5), judgement.limit);
-            text.push_str(&format!(
-                "{verdict} {} {value}, limit {limit}\n",
-                judgement.metric.name()
-            ));
-        }
-        text
+            let (name, value) = (judgement.metric.name(), number(judgement.value, 5));
+            section.paragraph(format!("{verdict} {name} {value}, limit {}", judgement.limit))
+        })
     }
 
     /// As JSON; what is NaN is null.
@@ -251,14 +251,11 @@ impl Comparison<'_> {
     }
 }
 
-const HEADER: [&str; 7] = ["", "mean", "reference", "rms", "relative rms", "max", "at"];
-
-fn numbers(name: String, difference: &Difference, place: String) -> Vec<String> {
-    let d = difference;
+fn numbers(name: &str, d: &Difference, place: String) -> Vec<Cell> {
     let numbers = [d.mean, d.reference_mean, d.rms, d.relative_rms, d.max];
-    let mut row = vec![name];
-    row.extend(numbers.map(|number| significant(number, 5)));
-    row.push(place);
+    let mut row = vec![Cell::text(name)];
+    row.extend(numbers.map(|value| Cell::number(value, 5)));
+    row.push(Cell::text(place));
     row
 }
 
@@ -273,13 +270,13 @@ fn object(name: &str, d: &Difference, place: Value) -> Value {
 fn noise(z: &ZTest) -> String {
     let verdict = if z.passes(LEVEL) { "noise explains it" } else { "noise does not explain it" };
     format!(
-        "noise: worst z {} of {} cells ({}, {} pixels from x {}, y {}), p {}: {verdict} at 1 %\n",
-        significant(z.worst_z, 4),
+        "noise: worst z {} of {} cells ({}, {} pixels from x {}, y {}), p {}: {verdict} at 1 %",
+        number(z.worst_z, 4),
         z.cells,
         z.worst.channel,
         z.worst.pixels,
         z.worst.x,
         z.worst.y,
-        significant(z.p, 3),
+        number(z.p, 3),
     )
 }

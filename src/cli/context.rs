@@ -31,7 +31,7 @@ impl Context {
                 .context("--threads")?;
         }
         Ok(Self {
-            output: Output::new(global.json, global.quiet),
+            output: Output::new(global.json, global.quiet, global.color),
             seed: global.seed,
             project: Project::find(global.project.as_deref(), Registry::builtin())
                 .map_err(Arc::new),

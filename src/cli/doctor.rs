@@ -6,8 +6,8 @@ use clap::Args;
 use serde::Serialize;
 
 use super::context::Context;
-use super::output::table;
 use super::{Ending, data};
+use crate::document::{Cell, Column, Section, Table};
 use crate::gpu;
 
 /// Tools outside that some checks use where they are installed, and what for.
@@ -44,11 +44,12 @@ pub(super) fn run(_: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     lines.extend(adapters());
     lines.extend(project(context)?);
     lines.extend(TOOLS.iter().map(|(name, flag, use_)| tool(name, flag, use_)));
-    context.output.result(&lines, || {
-        let rows = lines
-            .iter()
-            .map(|line| vec![line.subject.clone(), line.state.to_owned(), line.detail.clone()]);
-        table(&["subject", "state", "detail"], rows.collect())
+    context.output.sections(&lines, || {
+        let table = Table::over("", &lines)
+            .column(Column::text("subject"), |line| Cell::text(line.subject.as_str()))
+            .column(Column::text("state"), |line| Cell::text(line.state))
+            .column(Column::text("detail"), |line| Cell::text(line.detail.as_str()));
+        vec![Section::default().block(table)]
     })?;
     Ok(Ending::Done)
 }

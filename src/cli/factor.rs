@@ -191,7 +191,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         folder: &arguments.output,
     };
     store::atomic_write(&arguments.output.join("errors.csv"), factored.csv()?.as_bytes())?;
-    context.output.result(&factored.json(), || factored.text())?;
+    context.output.sections(&factored.json(), || vec![factored.section()])?;
     for note in left_out {
         context.output.note(&note);
     }

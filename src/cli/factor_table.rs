@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::output::{significant, table};
+use crate::document::{self, Cell, Column, Section, number};
 use crate::factor::{Directional, MainDirections, Spectrum};
 use crate::table::{Grid, shortest_number};
 
 /// One method at one rank in one channel.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub(super) struct Row {
     pub(super) method: &'static str,
     pub(super) rank: usize,
@@ -17,6 +18,7 @@ pub(super) struct Row {
     /// ‖S − Ŝ‖/‖S‖.
     pub(super) relative_error: f64,
     /// The same after convolution, where there are environments.
+    #[serde(rename = "error_after_convolution")]
     pub(super) after_convolution: Option<f64>,
     /// Of all channels together.
     pub(super) ms: f64,
@@ -58,84 +60,60 @@ impl Factored<'_> {
                 &row.channel,
                 &shortest_number(row.relative_error),
                 &row.after_convolution.map_or(String::new(), shortest_number),
-                &significant(row.ms, 4),
+                &number(row.ms, 4),
             ])?;
         }
         Ok(String::from_utf8(writer.into_inner()?)?)
     }
 
     /// For a reader.
-    pub(super) fn text(&self) -> String {
+    pub(super) fn section(&self) -> Section {
         let (nx, ny) = (self.table.x().count, self.table.y().count);
-        let mut text = format!("{nx} × {ny} texels, {}\n", self.folder.display());
+        let mut section =
+            Section::default().paragraph(format!("{nx} × {ny} texels, {}", self.folder.display()));
         if let Some(found) = self.directions {
-            let [x, y] = found.angles_rad.map(|angle| significant(angle.to_degrees(), 5));
-            let [before, _, after] = found.beyond_rank_one.map(|part| significant(100.0 * part, 3));
+            let [x, y] = found.angles_rad.map(|angle| number(angle.to_degrees(), 5));
+            let [before, _, after] = found.beyond_rank_one.map(|part| number(100.0 * part, 3));
             let done = if self.aligned { "straightened" } else { "not straightened" };
-            text.push_str(&format!(
+            section = section.paragraph(format!(
                 "main directions at {x}° and {y}°, {done}; beyond rank 1 (of the roots): \
-                 {before} % before, {after} % after\n"
+                 {before} % before, {after} % after"
             ));
         }
-        text.push_str(&table(&self.header(), self.cells()));
-        if let Some(lines) = &self.lines {
-            text.push_str(&lines.text());
+        section = section.block(self.errors());
+        match &self.lines {
+            Some(lines) => section.paragraph(lines.text()),
+            None => section,
         }
-        text
     }
 
-    fn channels(&self) -> Vec<&str> {
-        self.table.channels.iter().map(|c| c.name.as_str()).collect()
-    }
-
-    fn is_seen(&self) -> bool {
-        self.rows.iter().any(|row| row.after_convolution.is_some())
-    }
-
-    fn header(&self) -> Vec<String> {
-        let mut header = vec!["method".to_owned(), "rank".to_owned()];
-        header.extend(self.channels().iter().map(|c| format!("error {c}")));
-        if self.is_seen() {
-            header.extend(self.channels().iter().map(|c| format!("convolved {c}")));
-        }
-        header.push("ms".to_owned());
-        header
-    }
-
-    fn cells(&self) -> Vec<Vec<String>> {
-        let seen = self.is_seen();
-        self.rows
-            .chunks(self.table.channels.len().max(1))
-            .filter_map(|rows| {
-                let first = rows.first()?;
-                let mut cells = vec![first.method.to_owned(), first.rank.to_string()];
-                cells.extend(rows.iter().map(|row| significant(row.relative_error, 4)));
-                if seen {
-                    let value = |row: &Row| row.after_convolution.map(|e| significant(e, 4));
-                    cells.extend(rows.iter().map(|row| value(row).unwrap_or_default()));
-                }
-                cells.push(significant(first.ms, 3));
-                Some(cells)
-            })
-            .collect()
+    /// A row per method and rank.
+    fn errors(&self) -> document::Table {
+        let names = || self.table.channels.iter().map(|c| c.name.as_str()).enumerate();
+        let seen = self.rows.iter().any(|row| row.after_convolution.is_some());
+        let number = |row: Option<&Row>, of: fn(&Row) -> Option<f64>| {
+            Cell::number_or(row.and_then(of), 4, "no environment")
+        };
+        // Rows of the channels of one method at one rank stand together.
+        document::Table::over("", self.rows.chunks(self.table.channels.len().max(1)))
+            .column(Column::code("method"), |rows| Cell::text(rows[0].method))
+            .column(Column::figures("rank"), |rows| Cell::count(rows[0].rank))
+            .columns(
+                names(),
+                |(_, name)| Column::figures(format!("error {name}")),
+                |rows, (at, _)| number(rows.get(*at), |row| Some(row.relative_error)),
+            )
+            .columns(
+                names().filter(|_| seen),
+                |(_, name)| Column::figures(format!("convolved {name}")),
+                |rows, (at, _)| number(rows.get(*at), |row| row.after_convolution),
+            )
+            .column(Column::figures("ms"), |rows| Cell::number(rows[0].ms, 3))
+            .table()
     }
 
     /// For a program.
     pub(super) fn json(&self) -> Value {
-        let rows: Vec<Value> = self
-            .rows
-            .iter()
-            .map(|row| {
-                json!({
-                    "method": row.method,
-                    "rank": row.rank,
-                    "channel": row.channel,
-                    "relative_error": row.relative_error,
-                    "error_after_convolution": row.after_convolution,
-                    "ms": row.ms,
-                })
-            })
-            .collect();
         let spectra: Vec<Value> = self
             .spectra
             .iter()
@@ -168,7 +146,7 @@ impl Factored<'_> {
         json!({
             "table": self.table.origin,
             "output": self.folder.display().to_string(),
-            "rows": rows,
+            "rows": self.rows,
             "spectra": spectra,
             "alignment": alignment,
             "directional": lines,
@@ -185,14 +163,14 @@ impl Lines {
         let angles: Vec<String> = self
             .directions()
             .iter()
-            .map(|[x, y]| format!("{}°", significant(y.atan2(*x).to_degrees(), 5)))
+            .map(|[x, y]| format!("{}°", number(y.atan2(*x).to_degrees(), 5)))
             .collect();
         let lost: Vec<String> = self
             .all
             .lost
             .iter()
-            .map(|(name, part)| format!("{name} {} %", significant(100.0 * part, 3)))
+            .map(|(name, part)| format!("{name} {} %", number(100.0 * part, 3)))
             .collect();
-        format!("lines at {}; energy on no line: {}\n", angles.join(" and "), lost.join(", "))
+        format!("lines at {}; energy on no line: {}", angles.join(" and "), lost.join(", "))
     }
 }

@@ -6,7 +6,7 @@ use anyhow::bail;
 use clap::{Args, ValueEnum};
 
 use super::context::Context;
-use super::fit_table::{constants, summary};
+use super::fit_table::{one, summary};
 use super::{Ending, assignment, progress};
 use crate::fit::loss::Loss;
 use crate::fit::solve::SolverKind;
@@ -127,9 +127,9 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     }
     let place = fit::Context::new(root, context.project_or_here().registry());
     let results = fit(&jobs, &place, context)?;
-    context.output.result(&json(&results)?, || {
-        let tables = if arguments.all { summary(&results) } else { constants(&results) };
-        tables.trim_start().to_owned()
+    context.output.sections(&json(&results)?, || match arguments.all {
+        true => vec![summary(&results)],
+        false => results.iter().map(one).collect(),
     })?;
     Ok(ending(&results))
 }

@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::Ending;
 use super::context::Context;
+use super::output::line;
 use crate::measured::{self, Content, Negative};
 
 const MORE: &str = "\
@@ -64,7 +65,9 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     if arguments.negative_as_black {
         imported.notes.iter().for_each(|note| context.output.note(note));
     }
-    context.output.result(&summary, || format!("{output}: {text} from {}\n", imported.format))?;
+    context
+        .output
+        .sections(&summary, || line(format!("{output}: {text} from {}", imported.format)))?;
     Ok(Ending::Done)
 }
 

@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use super::Ending;
 use super::context::Context;
-use super::output::{significant, table};
+use crate::document::{Cell, Column, Section, Table, number};
 use crate::gate;
 use crate::registry::Registry;
 use crate::render::AnyScene;
@@ -48,8 +48,14 @@ struct Listing {
 }
 
 impl Listing {
-    fn text(&self) -> String {
-        format!("{} ({})\n{}", self.title, self.rows.len(), table(self.header, self.rows.clone()))
+    fn section(&self) -> Section {
+        let caption = format!("{} ({})", self.title, self.rows.len());
+        let table = Table::over(caption, &self.rows).columns(
+            self.header.iter().enumerate(),
+            |(_, title)| Column::text(**title),
+            |row, (at, _)| Cell::text(row[*at].as_str()),
+        );
+        Section::default().block(table)
     }
 
     fn json(&self) -> Value {
@@ -80,9 +86,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
             many.iter().map(|l| (l.title.to_owned(), l.json())).collect::<Map<_, _>>(),
         ),
     };
-    context
-        .output
-        .result(&json, || listings.iter().map(Listing::text).collect::<Vec<_>>().join("\n"))?;
+    context.output.sections(&json, || listings.iter().map(Listing::section).collect())?;
     Ok(Ending::Done)
 }
 
@@ -195,7 +199,7 @@ fn gates(context: &Context) -> anyhow::Result<Listing> {
     let gates = if file.exists() { gate::read(&file)? } else { Vec::new() };
     let gates = gates.into_iter().map(|gate| {
         let domain = gate.domain.map_or_else(|| "as fitted".to_owned(), |d| d.to_string());
-        let limit = significant(gate.limit, 6);
+        let limit = number(gate.limit, 6);
         row([
             &gate.subject,
             gate.metric.name(),

@@ -66,6 +66,9 @@ pub struct Global {
     /// Print results and errors only, no notes and no progress
     #[arg(long, global = true)]
     quiet: bool,
+    /// Whether headings and verdicts are coloured; NO_COLOR turns auto off
+    #[arg(long, global = true, value_name = "WHEN", default_value_t = clap::ColorChoice::Auto)]
+    color: clap::ColorChoice,
     /// Threads to use; no result depends on it [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,

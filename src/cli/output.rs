@@ -2,24 +2,39 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use comfy_table::{ContentArrangement, LineStyle, Table, TableStyle};
+use clap::ColorChoice;
 use serde::Serialize;
 
-/// A rule under the header and nothing else, so that a table can be read, searched and pasted.
-const STYLE: TableStyle =
-    TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
+pub(super) use crate::document::number as significant;
+use crate::document::text::{self, Layout};
+use crate::document::{Cell, Column, Inline, Section, Table};
 
 /// Where results and notes go.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Output {
     json: bool,
     quiet: bool,
+    layout: Layout,
 }
 
 impl Output {
-    /// `json` replaces tables; `quiet` silences notes.
-    pub(super) fn new(json: bool, quiet: bool) -> Self {
-        Self { json, quiet }
+    /// `json` replaces sections; `quiet` silences notes. Without a choice of its own, colour is for
+    /// terminals, unless `NO_COLOR` is set (no-color.org).
+    pub(super) fn new(json: bool, quiet: bool, colour: ColorChoice) -> Self {
+        let terminal = io::stdout().is_terminal();
+        let colour = match colour {
+            ColorChoice::Always => true,
+            ColorChoice::Never => false,
+            ColorChoice::Auto => {
+                terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+            }
+        };
+        let width = if terminal { comfy_table::Table::new().width() } else { None };
+        let layout = match width {
+            Some(width) => Layout::terminal(width, colour),
+            None => Layout { colour, ..Layout::default() },
+        };
+        Self { json, quiet, layout }
     }
 
     /// Whether JSON was asked for.
@@ -30,6 +45,15 @@ impl Output {
     /// Whether a progress bar has someone to look at it.
     pub(super) fn shows_progress(self) -> bool {
         !self.quiet && io::stderr().is_terminal()
+    }
+
+    /// Prints `value` as JSON if that was asked for, else the sections that `sections` makes.
+    pub(super) fn sections<T: Serialize>(
+        self,
+        value: &T,
+        sections: impl FnOnce() -> Vec<Section>,
+    ) -> io::Result<()> {
+        self.result(value, || text::sections(&sections(), self.layout))
     }
 
     /// Prints `value` as JSON if that was asked for, else the text that `text` makes.
@@ -54,41 +78,17 @@ impl Output {
     }
 }
 
-/// A table of text for a terminal or a file, with a newline at the end.
-pub(super) fn table<H: AsRef<str>>(header: &[H], rows: Vec<Vec<String>>) -> String {
-    let mut table = Table::new();
-    table.load_style(STYLE);
-    table.set_header(header.iter().map(|h| h.as_ref().to_owned()));
-    if io::stdout().is_terminal() {
-        table.set_content_arrangement(ContentArrangement::Dynamic);
-    }
-    for row in rows {
-        table.add_row(row);
-    }
-    let mut text = String::new();
-    for line in table.to_string().lines() {
-        text.push_str(line.trim_end());
-        text.push('\n');
-    }
-    text
+/// A section of one paragraph, for what is said in a line.
+pub(super) fn line(text: impl Into<Inline>) -> Vec<Section> {
+    vec![Section::default().paragraph(text)]
 }
 
-/// `value` with `digits` significant digits, as short as it can be read: `0.05098`, `1.2e-7`.
-pub(super) fn significant(value: f64, digits: usize) -> String {
-    let magnitude = value.abs();
-    if value == 0.0 || !value.is_finite() {
-        format!("{value}")
-    } else if (1e-3..1e6).contains(&magnitude) {
-        let decimals = digits as i32 - 1 - magnitude.log10().floor() as i32;
-        let text = format!("{value:.*}", decimals.max(0) as usize);
-        if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        } else {
-            text
-        }
-    } else {
-        format!("{value:.*e}", digits.saturating_sub(1))
-    }
+/// A table of words as text, for what is printed beside lines of its own.
+pub(super) fn table<H: AsRef<str>>(header: &[H], rows: Vec<Vec<String>>) -> String {
+    let columns = header.iter().map(|title| Column::text(title.as_ref())).collect();
+    let rows = rows.into_iter().map(|row| row.into_iter().map(Cell::text).collect());
+    let output = Output::new(false, false, ColorChoice::Never);
+    text::table(&Table::new("", columns).with_rows(rows), output.layout)
 }
 
 /// Writes to stdout. A reader that has gone away is no error: the run goes on and ends as it would.

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::Ending;
 use super::context::Context;
+use super::output::line;
 use super::progress;
 use crate::gate::Check;
 use crate::report::html::Written;
@@ -36,8 +37,8 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     let run = context.run()?;
     let check = run.check(None, false)?;
     let written = write(&folder, &run, &check, context)?;
-    context.output.result(&serde_json::json!({ "files": written.files }), || {
-        format!("{} files in {}\n", written.files.len(), folder.display())
+    context.output.sections(&serde_json::json!({ "files": written.files }), || {
+        line(format!("{} files in {}", written.files.len(), folder.display()))
     })?;
     Ok(Ending::Done)
 }

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::Ending;
 use super::context::Context;
-use super::output::{significant, table};
+use crate::document::{self, Block, Cell, Section, number};
 use crate::effect::exhibit::{ExhibitCell, ExhibitTable};
 use crate::effect::simulator::{Settings, Simulator};
 use crate::measured::spectra::Spectra;
@@ -87,7 +87,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         simulation.notes.push(format!(
             "{}: white is {} sr^-1, black {DECADES} decades below",
             png.display(),
-            significant(white, 3)
+            number(white, 3)
         ));
     }
     let result = json!({
@@ -96,13 +96,10 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         "notes": simulation.notes,
         "tables": simulation.tables,
     });
-    context.output.result(&result, || {
-        let mut text = simulation.notes.join("\n");
-        text.push('\n');
-        for shown in &simulation.tables {
-            text.push_str(&format!("\n{}\n{}", shown.caption, as_text(shown)));
-        }
-        text
+    context.output.sections(&result, || {
+        let notes = simulation.notes.iter().map(|note| Block::Paragraph(note.as_str().into()));
+        let tables = simulation.tables.iter().map(|table| shown(table).into());
+        vec![Section { blocks: notes.chain(tables).collect(), ..Section::default() }]
     })?;
     Ok(Ending::Done)
 }
@@ -112,42 +109,29 @@ fn extension(path: &Path) -> String {
 }
 
 fn list_settings(simulator: &Simulator, context: &Context) -> anyhow::Result<Ending> {
-    let header = ["setting", "unit", "default", "description"];
-    let rows: Vec<Vec<String>> = simulator
-        .parameters
-        .iter()
-        .map(|p| [p.name, p.unit, p.default, p.description].map(str::to_owned).to_vec())
-        .collect();
-    let objects: Vec<_> = simulator
-        .parameters
-        .iter()
-        .map(|p| {
-            json!({
-                "name": p.name,
-                "unit": p.unit,
-                "default": p.default,
-                "description": p.description,
-            })
-        })
-        .collect();
-    context.output.result(&objects, || table(&header, rows))?;
+    context.output.sections(&simulator.parameters, || {
+        let table = document::Table::over("", simulator.parameters)
+            .column(document::Column::text("setting"), |of| Cell::text(of.name))
+            .column(document::Column::text("unit"), |of| Cell::text(of.unit))
+            .column(document::Column::text("default"), |of| Cell::text(of.default))
+            .column(document::Column::text("description"), |of| Cell::text(of.description));
+        vec![Section::default().block(table)]
+    })?;
     Ok(Ending::Done)
 }
 
-fn as_text(shown: &ExhibitTable) -> String {
-    let header: Vec<String> = shown
-        .columns
-        .iter()
-        .map(|(name, unit)| match *unit {
-            "" | "1" => name.clone(),
-            unit => format!("{name} [{unit}]"),
-        })
-        .collect();
+fn shown(table: &ExhibitTable) -> document::Table {
+    let columns = table.columns.iter().map(|(title, unit)| match *unit {
+        "" => document::Column::text(title.as_str()),
+        "1" => document::Column::figures(title.as_str()),
+        unit => document::Column::number(title.as_str(), unit),
+    });
     let cell = |cell: &ExhibitCell| match cell {
-        ExhibitCell::Text(words) => words.clone(),
-        ExhibitCell::Number(value) => significant(*value, 4),
+        ExhibitCell::Text(words) => Cell::text(words.as_str()),
+        ExhibitCell::Number(value) => Cell::number(*value, 4),
     };
-    table(&header, shown.rows.iter().map(|row| row.iter().map(cell).collect()).collect())
+    document::Table::new(table.caption.as_str(), columns.collect())
+        .with_rows(table.rows.iter().map(|row| row.iter().map(cell).collect()))
 }
 
 /// The table in false brightness, and the value that is white.

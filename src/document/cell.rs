@@ -4,6 +4,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 use super::inline::Inline;
+use crate::numeric::measured::Measured;
 
 /// One cell of a table.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,18 +72,18 @@ impl Highlight {
     }
 }
 
-/// How something came out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+/// How a check came out, from what needs no attention to what needs most.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// Within its limit.
+    /// Measured, and within the limit.
     Pass,
-    /// Within its limit, but close.
+    /// Within the limit, but close to it or otherwise worth a look.
     Warn,
-    /// Beyond its limit.
-    Fail,
-    /// Nothing to judge.
+    /// What it would take to measure it is not here (a device): neither passed nor failed.
     NotMeasured,
+    /// Beyond the limit, or not measurable for a reason that has to be mended.
+    Fail,
 }
 
 impl Verdict {
@@ -121,10 +122,31 @@ impl Cell {
         Self::new(Value::Text(text.into()))
     }
 
-    /// A number shown with `digits` significant digits.
+    /// A number shown with `digits` significant digits; 17 show the fewest that read back the same.
     #[must_use]
     pub fn number(value: f64, digits: usize) -> Self {
         Self::new(Value::Number { value, digits })
+    }
+
+    /// A constant in f32: the shortest decimal that reads back the same f32.
+    #[must_use]
+    pub fn single(value: f32) -> Self {
+        Self::number(value.to_string().parse().unwrap_or_else(|_| f64::from(value)), 17)
+    }
+
+    /// A count, with all its digits.
+    #[must_use]
+    pub fn count(count: usize) -> Self {
+        Self::number(count as f64, 17)
+    }
+
+    /// A measured number shown with `digits` significant digits, or why it was not measured.
+    #[must_use]
+    pub fn measured(value: &Measured<f64>, digits: usize) -> Self {
+        match value {
+            Measured::Value(value) => Self::number(*value, digits),
+            Measured::NotMeasured(reason) => Self::missing(reason.as_str()),
+        }
     }
 
     /// A number, or why there is none.
@@ -218,20 +240,36 @@ pub fn not_finite(value: f64) -> &'static str {
 }
 
 /// `value` with `digits` significant digits: plain from 1e-3 to 1e6, with an exponent beyond.
+///
+/// Zeros at the end of a plain number stand only where digits were cut off behind them, so that
+/// `0.05105`, a limit as it was set, stays as it is and 0.0509996 at four digits is `0.05100`. With
+/// 17 digits or more it is the shortest decimal that reads back the same.
+///
+/// ```
+/// use striae::document::number;
+/// assert_eq!(number(0.0509996, 4), "0.05100");
+/// assert_eq!(number(0.5, 4), "0.5");
+/// assert_eq!(number(1.234567e-7, 3), "1.23e-7");
+/// ```
 #[must_use]
 pub fn number(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return not_finite(value).to_owned();
     }
-    let decimals = digits.clamp(1, 17) - 1;
     if value == 0.0 {
         return "0".to_owned();
     }
-    let rounded = format!("{value:.decimals$e}");
+    let decimals = digits.clamp(1, 17) - 1;
+    let rounded = if decimals < 16 { format!("{value:.decimals$e}") } else { format!("{value:e}") };
     let exponent = rounded.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok()).unwrap_or(0);
     if !(-3..6).contains(&exponent) {
         return rounded;
     }
     let places = usize::try_from(i32::try_from(decimals).unwrap_or(16) - exponent).unwrap_or(0);
-    format!("{value:.places$}")
+    let plain = if decimals < 16 { format!("{value:.places$}") } else { format!("{value}") };
+    if plain.contains('.') && plain.parse() == Ok(value) {
+        plain.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        plain
+    }
 }

@@ -1,8 +1,36 @@
-//! What a page of a report holds: sections of paragraphs, tables, figures and notices.
+//! What is shown to a reader: sections of paragraphs, tables, figures and notices, as data.
 //!
-//! The model is written three times, as HTML, JSON and plain text, so it says what is meant and
-//! nothing about looks. A value that was not measured is a [`Missing`](cell::Value)
-//! cell with its reason: it is never a number, a blank or a pass.
+//! Verbs, effects and reports build sections; [`text`] prints them, [`json`] and
+//! [`report::html`](crate::report::html) write whole reports. The model says what is meant and
+//! nothing about looks. A value that was not measured is a [`Missing`](cell::Value) cell with its
+//! reason: it is never a number, a blank or a pass.
+//!
+//! ```
+//! use striae::document::text::{self, Layout};
+//! use striae::document::{Cell, Column, Section, Table, Verdict};
+//!
+//! let columns = vec![Column::code("form"), Column::number("cost", "ns"), Column::verdict("gate")];
+//! let costs = Table::new("Cost on the device.", columns).with_rows([
+//!     vec![Cell::text("published"), Cell::number(0.51234, 3), Cell::verdict(Verdict::Pass)],
+//!     vec![Cell::text("refitted"), Cell::missing("no device"), Cell::verdict(Verdict::Fail)],
+//! ]);
+//! let section = Section::new("Costs").paragraph("Medians of `striae bench`.").block(costs);
+//! assert_eq!(
+//!     text::sections(&[section], Layout::default()),
+//!     "\
+//! Costs
+//! -----
+//!
+//! Medians of striae bench.
+//!
+//! Cost on the device.
+//!  form                     cost [ns]   gate
+//! ───────────────────────────────────────────
+//!  published                    0.512   pass
+//!  refitted    not measured: no device   FAIL
+//! "
+//! );
+//! ```
 
 pub mod cell;
 pub mod inline;
@@ -14,10 +42,10 @@ pub(crate) mod thin;
 
 use serde::{Serialize, Serializer};
 
-pub use cell::{Cell, Highlight, Value, Verdict};
+pub use cell::{Cell, Highlight, Value, Verdict, number};
 pub use inline::{Inline, Span};
 use plot::Plot;
-pub use table::{Align, Column, ColumnKind, Table};
+pub use table::{Align, Column, ColumnKind, Table, Tabled};
 
 /// One page: `<slug>.html`. The page with the slug `index` leads, and lists the others.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -54,47 +82,43 @@ impl Page {
         self
     }
 
-    /// Its pictures, in order, those inside [`Block::Details`] included.
+    /// Its blocks, in order, those inside [`Block::Details`] after their summary.
     #[must_use]
-    pub fn pictures(&self) -> Vec<&Picture> {
-        fn collect<'a>(blocks: &'a [Block], into: &mut Vec<&'a Picture>) {
+    pub fn blocks(&self) -> Vec<&Block> {
+        fn collect<'a>(blocks: &'a [Block], into: &mut Vec<&'a Block>) {
             for block in blocks {
-                match block {
-                    Block::Picture(picture) => into.push(picture),
-                    Block::Details { blocks, .. } => collect(blocks, into),
-                    _ => {}
+                into.push(block);
+                if let Block::Details { blocks, .. } = block {
+                    collect(blocks, into);
                 }
             }
         }
-        let mut pictures = Vec::new();
-        self.sections.iter().for_each(|section| collect(&section.blocks, &mut pictures));
-        pictures
+        let mut all = Vec::new();
+        self.sections.iter().for_each(|section| collect(&section.blocks, &mut all));
+        all
     }
 
-    /// Its figures, in order, those inside [`Block::Details`] included.
-    #[must_use]
-    pub fn figures(&self) -> Vec<&Figure> {
-        fn collect<'a>(blocks: &'a [Block], into: &mut Vec<&'a Figure>) {
-            for block in blocks {
-                match block {
-                    Block::Figure(figure) => into.push(figure),
-                    Block::Details { blocks, .. } => collect(blocks, into),
-                    _ => {}
-                }
-            }
-        }
-        let mut figures = Vec::new();
-        for section in &self.sections {
-            collect(&section.blocks, &mut figures);
-        }
-        figures
+    /// Its pictures, in order.
+    pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
+        self.blocks().into_iter().filter_map(|block| match block {
+            Block::Picture(picture) => Some(picture),
+            _ => None,
+        })
+    }
+
+    /// Its figures, in order.
+    pub fn figures(&self) -> impl Iterator<Item = &Figure> {
+        self.blocks().into_iter().filter_map(|block| match block {
+            Block::Figure(figure) => Some(figure),
+            _ => None,
+        })
     }
 }
 
 /// A part of a page, with a heading of its own and an entry in the page's contents.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Section {
-    /// Heading.
+    /// Heading; text shows none where it is empty.
     pub title: String,
     /// What it holds, in order.
     pub blocks: Vec<Block>,
@@ -117,6 +141,12 @@ impl Section {
     #[must_use]
     pub fn paragraph(self, text: impl Into<Inline>) -> Self {
         self.block(Block::Paragraph(text.into()))
+    }
+
+    /// The section with one more remark that must not be overlooked.
+    #[must_use]
+    pub fn notice(self, level: NoticeLevel, text: impl Into<Inline>) -> Self {
+        self.block(Block::Notice { level, text: text.into() })
     }
 }
 
@@ -160,6 +190,12 @@ pub enum Block {
 impl From<Table> for Block {
     fn from(table: Table) -> Self {
         Self::Table(table)
+    }
+}
+
+impl<R> From<Tabled<R>> for Block {
+    fn from(table: Tabled<R>) -> Self {
+        Self::Table(table.table())
     }
 }
 
@@ -248,7 +284,7 @@ pub struct Picture {
 
 /// Where a report comes from: in the footer of every page and at the head of the JSON.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Provenance {
+pub struct Colophon {
     /// Version of striae.
     pub version: String,
     /// Adapter, driver and backend; absent when no device was measured.
@@ -261,7 +297,7 @@ pub struct Provenance {
     pub facts: Vec<(String, String)>,
 }
 
-impl Provenance {
+impl Colophon {
     /// The adapter, or that there was none.
     #[must_use]
     pub fn adapter_or_not_measured(&self) -> &str {

@@ -17,7 +17,7 @@ pub struct Plot {
     /// Labels at points, moved aside so that they do not overlap.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub annotations: Vec<Annotation>,
-    /// Limits and bounds, as lines across the plot.
+    /// Limits, as lines across the plot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub guides: Vec<Guide>,
     /// Whether to draw the frontier through the marked points that no other beats in both x and y
@@ -56,14 +56,7 @@ impl Plot {
     /// The plot with a horizontal line at `y`, named in the legend.
     #[must_use]
     pub fn guide_y(mut self, y: f64, name: impl Into<String>) -> Self {
-        self.guides.push(Guide { along: Along::Horizontal, at: y, name: name.into() });
-        self
-    }
-
-    /// The plot with a vertical line at `x`, named in the legend.
-    #[must_use]
-    pub fn guide_x(mut self, x: f64, name: impl Into<String>) -> Self {
-        self.guides.push(Guide { along: Along::Vertical, at: x, name: name.into() });
+        self.guides.push(Guide { at: y, name: name.into() });
         self
     }
 
@@ -192,14 +185,6 @@ impl Series {
         Self::with_style(name, SeriesStyle::LineMarkers, points)
     }
 
-    /// A descending staircase: at every x the lowest y reached so far.
-    pub fn step_frontier(
-        name: impl Into<String>,
-        points: impl IntoIterator<Item = (f64, f64)>,
-    ) -> Self {
-        Self::with_style(name, SeriesStyle::StepFrontier, points)
-    }
-
     /// The series, standing out.
     #[must_use]
     pub fn strong(mut self) -> Self {
@@ -227,8 +212,6 @@ pub enum SeriesStyle {
     Markers,
     /// Markers joined by a line.
     LineMarkers,
-    /// The staircase through the points that no other beats.
-    StepFrontier,
 }
 
 /// How much a series stands out.
@@ -254,25 +237,13 @@ pub struct Annotation {
     pub text: String,
 }
 
-/// A line across the plot: a limit, a bound of a domain.
+/// A horizontal line across the plot: a limit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Guide {
-    /// Its direction.
-    pub along: Along,
-    /// The value on the axis that it crosses.
+    /// Its y.
     pub at: f64,
     /// Name, in the legend.
     pub name: String,
-}
-
-/// The direction of a [`Guide`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Along {
-    /// At one y.
-    Horizontal,
-    /// At one x.
-    Vertical,
 }
 
 /// A figure that cannot be drawn.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::cell::Cell;
+use super::cell::{Cell, Highlight};
 use super::inline::Inline;
 
 /// A table. Every row has one cell per column; the first column heads its row.
@@ -21,6 +21,29 @@ impl Table {
         Self { caption: caption.into(), columns, rows: Vec::new() }
     }
 
+    /// A table with a row per record; [`Tabled::column`] says what is shown of each.
+    ///
+    /// ```
+    /// use striae::document::{Cell, Column, Table};
+    /// let table = Table::over("Squares.", [1.0, 2.0, 3.0])
+    ///     .column(Column::number("x", "1"), |x| Cell::number(*x, 2))
+    ///     .column(Column::number("x²", "1"), |x| Cell::number(x * x, 2))
+    ///     .table();
+    /// assert_eq!(table.rows().len(), 3);
+    /// ```
+    pub fn over<R>(caption: impl Into<Inline>, records: impl IntoIterator<Item = R>) -> Tabled<R> {
+        let records: Vec<R> = records.into_iter().collect();
+        let rows = records.iter().map(|_| Vec::new()).collect();
+        Tabled { table: Self { caption: caption.into(), columns: Vec::new(), rows }, records }
+    }
+
+    /// The table with more rows.
+    #[must_use]
+    pub fn with_rows(mut self, rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
+        rows.into_iter().for_each(|row| self.push(row));
+        self
+    }
+
     /// Rows, in order; each has one cell per column.
     #[must_use]
     pub fn rows(&self) -> &[Vec<Cell>] {
@@ -32,6 +55,54 @@ impl Table {
     pub fn push(&mut self, mut row: Vec<Cell>) {
         row.resize_with(self.columns.len(), || Cell::missing("no value given"));
         self.rows.push(row);
+    }
+}
+
+/// A table in the making: a row per record, growing column by column.
+#[derive(Debug, Clone)]
+pub struct Tabled<R> {
+    table: Table,
+    records: Vec<R>,
+}
+
+impl<R> Tabled<R> {
+    /// One more column, and what it shows of a record.
+    #[must_use]
+    pub fn column(mut self, column: Column, cell: impl Fn(&R) -> Cell) -> Self {
+        self.table.columns.push(column);
+        for (row, record) in self.table.rows.iter_mut().zip(&self.records) {
+            row.push(cell(record));
+        }
+        self
+    }
+
+    /// One more column per item, and what each shows of a record.
+    #[must_use]
+    pub fn columns<I>(
+        self,
+        items: impl IntoIterator<Item = I>,
+        column: impl Fn(&I) -> Column,
+        cell: impl Fn(&R, &I) -> Cell,
+    ) -> Self {
+        items
+            .into_iter()
+            .fold(self, |table, item| table.column(column(&item), |record| cell(record, &item)))
+    }
+
+    /// The rows of some records, standing out.
+    #[must_use]
+    pub fn highlighted(mut self, highlight: Highlight, which: impl Fn(&R) -> bool) -> Self {
+        let rows = self.table.rows.iter_mut().zip(&self.records);
+        for (row, _) in rows.filter(|(_, record)| which(record)) {
+            row.iter_mut().for_each(|cell| cell.highlight = Some(highlight));
+        }
+        self
+    }
+
+    /// The table.
+    #[must_use]
+    pub fn table(self) -> Table {
+        self.table
     }
 }
 
@@ -71,24 +142,17 @@ impl Column {
 
     /// A column of numbers in `unit`.
     pub fn number(title: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self {
-            unit: Some(unit.into()),
-            align: Align::Right,
-            kind: ColumnKind::Number,
-            ..Self::text(title)
-        }
+        Self { unit: Some(unit.into()), ..Self::figures(title) }
+    }
+
+    /// A column of numbers whose unit is the row's, or stands in the heading.
+    pub fn figures(title: impl Into<String>) -> Self {
+        Self { align: Align::Right, kind: ColumnKind::Number, ..Self::text(title) }
     }
 
     /// A column of verdicts.
     pub fn verdict(title: impl Into<String>) -> Self {
         Self { kind: ColumnKind::Verdict, ..Self::text(title) }
-    }
-
-    /// The column with its cells elsewhere.
-    #[must_use]
-    pub fn aligned(mut self, align: Align) -> Self {
-        self.align = align;
-        self
     }
 
     /// The column under a heading that it shares with neighbours of the same group.
@@ -113,8 +177,6 @@ impl Column {
 pub enum Align {
     /// At the left.
     Left,
-    /// In the middle.
-    Centre,
     /// At the right.
     Right,
 }

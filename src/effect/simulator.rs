@@ -7,7 +7,7 @@ use crate::measured::spectra::Spectra;
 use crate::table::Grid;
 
 /// A setting of a simulator.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct Parameter {
     /// Name, as in `--set name=value`.
     pub name: &'static str,

@@ -15,7 +15,7 @@ pub fn annotations(file: &str, judgements: &[Judgement], reproductions: &[Reprod
             "::{level} file={},line={},title={}::{}\n",
             property(file),
             gate.line,
-            property(&format!("{}: {}", gate.subject, judgement.verdict.name())),
+            property(&format!("{}: {}", gate.subject, judgement.verdict.word())),
             data(&message)
         ));
     }

@@ -47,6 +47,6 @@ fn case(name: &str, verdict: Verdict, summary: &str, why: &str) -> TestCase {
     }
     let mut case = TestCase::new(name, status);
     case.set_classname("striae");
-    case.set_system_out(format!("{}: {summary}\n{why}", verdict.name()));
+    case.set_system_out(format!("{}: {summary}\n{why}", verdict.word()));
     case
 }

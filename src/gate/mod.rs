@@ -23,6 +23,8 @@ mod shipped;
 mod subject;
 mod verdict;
 
+use crate::document::Verdict;
+
 pub use annotation::annotations;
 pub use budget::{Gate, Metric, Precision};
 pub use check::Check;
@@ -37,4 +39,4 @@ pub use prove::{Proof, Proofs, prove};
 pub use reproduce::{Refits, Reproduction, refit, reproduce};
 pub use scene::SCENES;
 pub use shipped::{ShippedConstants, ShippedError};
-pub use verdict::{Judgement, Reached, Verdict};
+pub use verdict::{Judgement, Reached};

@@ -5,32 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::{Gate, Precision};
-
-/// How a gate, or any other check, ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// Measured, and within the limit.
-    Pass,
-    /// Within the limit, and at or beyond the value that was set as a warning.
-    Warn,
-    /// What it would take to measure it is not here (a device): neither passed nor failed.
-    NotMeasured,
-    /// Beyond the limit, or not measurable for a reason that the project has to mend.
-    Fail,
-}
-
-impl Verdict {
-    /// The word for it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pass => "pass",
-            Self::Warn => "warn",
-            Self::NotMeasured => "not measured",
-            Self::Fail => "FAIL",
-        }
-    }
-}
+use crate::document::{Verdict, number};
 
 /// A number of a fit, and where it was reached.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -48,18 +23,18 @@ pub struct Reached {
 impl Reached {
     /// `x = 3.56, Au.Johnson@R`: where the value was reached; empty if it has no place.
     pub fn place(&self) -> String {
-        let mut parts: Vec<String> =
-            self.at.iter().map(|(name, value)| format!("{name} = {}", rounded(*value))).collect();
+        let mut parts: Vec<String> = self
+            .at
+            .iter()
+            .map(|(name, value)| format!("{name} = {}", number(*value, DIGITS)))
+            .collect();
         parts.extend(self.of.clone());
         parts.join(", ")
     }
 }
 
-/// Six significant digits: enough to find the place again.
-fn rounded(value: f64) -> String {
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    format!("{rounded}")
-}
+/// Significant digits of a value or a place: enough to find it again.
+const DIGITS: usize = 6;
 
 /// A gate with its verdict.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,7 +91,7 @@ impl Judgement {
                 let margin = 100.0 * self.margin().unwrap_or(f64::NAN);
                 let place = measured.place();
                 let at = if place.is_empty() { String::new() } else { format!(" at {place}") };
-                let (value, limit) = (rounded(measured.value), self.gate.limit);
+                let (value, limit) = (number(measured.value, DIGITS), self.gate.limit);
                 format!("{metric} {value} of {limit} ({margin:.2} % left){at}")
             }
         };
@@ -130,7 +105,7 @@ impl Judgement {
 
 /// Relative difference from which a recorded number is stale: the digits that files give.
 const STALE: f64 = 1e-3;
-/// The same on a device, where arithmetic is its own.
+/// On a device, where arithmetic is its own, more.
 const STALE_ON_DEVICE: f64 = 0.05;
 
 /// That the number recorded when the limit was set is no longer the one that is measured.
@@ -141,7 +116,7 @@ fn stale(gate: &Gate, value: f64) -> Option<String> {
         Precision::F64 | Precision::F32 => STALE,
     };
     let near = (value - recorded).abs() <= tolerance * recorded.abs().max(value.abs());
-    (!near).then(|| format!("measured = {recorded} is stale: {} now", rounded(value)))
+    (!near).then(|| format!("measured = {recorded} is stale: {} now", number(value, 4)))
 }
 
 impl Serialize for Judgement {

@@ -2,15 +2,14 @@
 
 use std::path::Path;
 
-use super::{Run, RunError, Studied, write_accuracy};
-use crate::document::{Page, Provenance, Verdict};
-use crate::gate::{Check, Judgement, SCENES, Verdict as Standing};
+use super::{Run, RunError, write_accuracy};
+use crate::document::{Colophon, Page};
+use crate::gate::{Check, Judgement, SCENES};
 use crate::render::surface::render_surface;
 use crate::render::{AnyScene, Backend, Resources, render_scene};
 use crate::report::html::{Written, write_site};
 use crate::report::pages::{
-    Evidence, GateLine, SceneEvidence, SurfaceEvidence, effect_page, index_page, scenes_page,
-    surfaces_page,
+    Evidence, SceneEvidence, SurfaceEvidence, effect_page, index_page, scenes_page, surfaces_page,
 };
 
 impl Run {
@@ -32,9 +31,15 @@ impl Run {
         }
         let (scenes, surfaces) = self.scenes(watch)?;
         watch("the report");
-        let lines: Vec<GateLine> = check.gates.iter().map(line).collect();
-        let of: Vec<Vec<GateLine>> =
-            studied.iter().map(|studied| gates_of(studied, &lines)).collect();
+        let gates: Vec<&Judgement> = check.gates.iter().collect();
+        let of: Vec<Vec<&Judgement>> = studied
+            .iter()
+            .map(|studied| {
+                let prefix = format!("{}/", studied.effect.name);
+                let own = |of: &&Judgement| of.gate.subject.starts_with(&prefix);
+                gates.iter().copied().filter(own).collect()
+            })
+            .collect();
         let evidence: Vec<Evidence<'_>> = studied
             .iter()
             .zip(&of)
@@ -47,14 +52,14 @@ impl Run {
                 gates,
             })
             .collect();
-        let mut pages = vec![index_page(&evidence, &lines)];
+        let mut pages = vec![index_page(&evidence, &gates)];
         pages.extend(evidence.iter().map(effect_page).collect::<Result<Vec<Page>, _>>()?);
-        let of_scenes = |names: Vec<&str>| -> Vec<GateLine> {
-            let named = |line: &&GateLine| {
-                let rest = line.subject.strip_prefix(SCENES).unwrap_or_default();
+        let of_scenes = |names: Vec<&str>| -> Vec<&Judgement> {
+            let named = |of: &&Judgement| {
+                let rest = of.gate.subject.strip_prefix(SCENES).unwrap_or_default();
                 names.contains(&rest.split('#').next().unwrap_or_default())
             };
-            lines.iter().filter(named).cloned().collect()
+            gates.iter().copied().filter(named).collect()
         };
         if !scenes.is_empty() {
             let names = scenes.iter().map(|of| of.scene.name.as_str()).collect();
@@ -64,13 +69,13 @@ impl Run {
             let names = surfaces.iter().map(|of| of.scene.name.as_str()).collect();
             pages.push(surfaces_page(&surfaces, &of_scenes(names))?);
         }
-        let provenance = Provenance {
+        let colophon = Colophon {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             adapter: self.device.value().map(|device| device.description().to_string()),
             command: "striae report".to_owned(),
             facts: Vec::new(),
         };
-        Ok(write_site(folder, &pages, &provenance)?)
+        Ok(write_site(folder, &pages, &colophon)?)
     }
 
     fn scenes(
@@ -99,32 +104,5 @@ impl Run {
             }
         }
         Ok((lobes, surfaces))
-    }
-}
-
-/// The lines of an effect's own gates.
-fn gates_of(studied: &Studied, lines: &[GateLine]) -> Vec<GateLine> {
-    let prefix = format!("{}/", studied.effect.name);
-    lines.iter().filter(|line| line.subject.starts_with(&prefix)).cloned().collect()
-}
-
-fn line(judgement: &Judgement) -> GateLine {
-    let gate = &judgement.gate;
-    let domain = gate.domain.as_ref().map(|domain| format!(" over {domain}")).unwrap_or_default();
-    GateLine {
-        subject: gate.subject.clone(),
-        metric: format!("{} {}{domain}", gate.metric, gate.precision),
-        measured: match (&judgement.measured, &judgement.reason) {
-            (Some(measured), _) => Ok(measured.value),
-            (None, reason) => Err(reason.clone().unwrap_or_default()),
-        },
-        limit: gate.limit,
-        verdict: match judgement.verdict {
-            Standing::Pass => Verdict::Pass,
-            Standing::Warn => Verdict::Warn,
-            Standing::NotMeasured => Verdict::NotMeasured,
-            Standing::Fail => Verdict::Fail,
-        },
-        why: gate.why.clone(),
     }
 }

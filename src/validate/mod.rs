@@ -11,6 +11,7 @@ pub mod laws;
 pub mod parity;
 pub(crate) mod regions;
 pub mod sampling;
+pub mod standing;
 pub mod study;
 pub mod timed;
 

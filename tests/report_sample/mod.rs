@@ -3,11 +3,11 @@
 
 use striae::document::plot::{Axis, Plot, Series};
 use striae::document::{
-    Block, Cell, Column, Figure, Highlight, NoticeLevel, Page, Provenance, Section, Table, Verdict,
+    Block, Cell, Colophon, Column, Figure, Highlight, NoticeLevel, Page, Section, Table, Verdict,
 };
 
-pub(crate) fn provenance() -> Provenance {
-    Provenance {
+pub(crate) fn provenance() -> Colophon {
+    Colophon {
         version: "0.1.0".to_owned(),
         adapter: Some("llvmpipe (LLVM 19.1.7, 256 bits), Vulkan".to_owned()),
         command: "striae report -o reports".to_owned(),

@@ -2,7 +2,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::tables::table;
+use super::tables::{table, unfolded};
 use crate::document::plot::PlotError;
 use crate::document::{Block, Figure, Inline, NoticeLevel, Picture, Span};
 use crate::report::plot::{Drawing, draw};
@@ -49,8 +49,12 @@ pub(super) fn block(
             }
         },
         Block::Details { summary, blocks } => {
-            let inner =
-                blocks.iter().map(|b| self::block(b, drawings)).collect::<Result<Vec<_>, _>>()?;
+            let inner = blocks.iter().map(|inner| match inner {
+                // What was asked for is not folded again.
+                Block::Table(table) => Ok(unfolded(table, true)),
+                other => self::block(other, drawings),
+            });
+            let inner = inner.collect::<Result<Vec<_>, _>>()?;
             html! { details { summary { (inline(summary)) } @for one in &inner { (one) } } }
         }
     })

@@ -4,7 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::blocks::{block, inline};
 use crate::document::plot::PlotError;
-use crate::document::{Page, Provenance};
+use crate::document::{Colophon, Page};
 use crate::report::plot::{DARK_RULES, Drawing};
 
 /// The style sheet of every page.
@@ -27,7 +27,7 @@ pub struct Rendered {
 pub fn render_page(
     page: &Page,
     pages: &[Page],
-    provenance: &Provenance,
+    provenance: &Colophon,
 ) -> Result<Rendered, PlotError> {
     let mut drawings = Vec::new();
     let mut sections = Vec::new();

@@ -1,15 +1,16 @@
 //! The report as a folder: pages, JSON, text, and every figure as a file.
 
 use std::collections::BTreeSet;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use super::shell::render_page;
 use crate::document::plot::PlotError;
-use crate::document::{Page, Provenance};
+use crate::document::{Colophon, Page};
 use crate::document::{json, text};
+use crate::table::TableError;
+use crate::table::store::atomic_write;
 
 /// What lists the figures that the last run wrote.
 const MANIFEST: &str = "figures/manifest.json";
@@ -44,7 +45,10 @@ pub enum SiteError {
     /// The model cannot be written as JSON.
     #[error("report.json: {0}")]
     Json(#[from] serde_json::Error),
-    /// A file or folder cannot be written.
+    /// A file cannot be written.
+    #[error(transparent)]
+    Unwritable(#[from] TableError),
+    /// A folder cannot be made, or an old figure not removed.
     #[error("{}: {source}", path.display())]
     Io {
         /// Which.
@@ -80,15 +84,10 @@ struct Manifest {
 /// # Errors
 /// [`SiteError`] if a name is unusable or used twice, a figure cannot be drawn, or a file cannot be
 /// written.
-pub fn write_site(
-    dir: &Path,
-    pages: &[Page],
-    provenance: &Provenance,
-) -> Result<Written, SiteError> {
+pub fn write_site(dir: &Path, pages: &[Page], provenance: &Colophon) -> Result<Written, SiteError> {
     unique("page slug", pages.iter().map(|p| p.slug.as_str()))?;
-    let figures = pages.iter().flat_map(|p| p.figures().into_iter().map(|f| f.file_stem.as_str()));
-    let pictures =
-        pages.iter().flat_map(|p| p.pictures().into_iter().map(|f| f.file_stem.as_str()));
+    let figures = pages.iter().flat_map(|p| p.figures().map(|f| f.file_stem.as_str()));
+    let pictures = pages.iter().flat_map(|p| p.pictures().map(|f| f.file_stem.as_str()));
     unique("figure stem", figures.chain(pictures))?;
     let mut pages = pages.to_vec();
     if !pages.iter().any(|p| p.slug == "index") {
@@ -122,8 +121,9 @@ pub fn write_site(
     let mut removed = Vec::new();
     let mut put = |name: &str, content: &[u8]| -> Result<(), SiteError> {
         let path = dir.join(name);
-        write_whole(&path, content)
-            .map_err(|source| SiteError::Io { path: path.clone(), source })?;
+        if !std::fs::read(&path).is_ok_and(|old| old == content) {
+            atomic_write(&path, content)?;
+        }
         written.files.push(path);
         Ok(())
     };
@@ -175,25 +175,4 @@ fn old_figures(dir: &Path) -> BTreeSet<String> {
     };
     figures.retain(|name| stem(name));
     figures
-}
-
-/// Writes `content` to `path` through a file beside it, unless it is there already.
-fn write_whole(path: &Path, content: &[u8]) -> std::io::Result<()> {
-    if std::fs::read(path).is_ok_and(|old| old == content) {
-        return Ok(());
-    }
-    let folder = path.parent().unwrap_or_else(|| Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".striae-");
-    #[cfg(unix)]
-    let builder = {
-        use std::os::unix::fs::PermissionsExt;
-        // Readable as any file is; the process's umask still applies.
-        builder.permissions(std::fs::Permissions::from_mode(0o666))
-    };
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(content)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
 }

@@ -5,12 +5,26 @@ use maud::{Markup, html};
 use super::blocks::{inline, safe};
 use crate::document::{Align, Cell, Column, ColumnKind, Table, Value, Verdict};
 
-/// A table in a container of its own, so that a wide one scrolls and the page does not.
+/// Rows beyond which a table is shown on demand: what a page says stands before its long tables.
+const LONG: usize = 20;
+
+/// A table; a long one under its caption, which unfolds it.
 pub(super) fn table(table: &Table) -> Markup {
+    let rows = table.rows().len();
+    if rows <= LONG {
+        return unfolded(table, true);
+    }
+    html! {
+        details { summary { (inline(&table.caption)) " (" (rows) " rows)" } (unfolded(table, false)) }
+    }
+}
+
+/// A table in a container of its own, so that a wide one scrolls and the page does not.
+pub(super) fn unfolded(table: &Table, captioned: bool) -> Markup {
     html! {
         div.scroll tabindex="0" role="region" aria-label=(table.caption.to_plain()) {
             table {
-                caption { (inline(&table.caption)) }
+                @if captioned { caption { (inline(&table.caption)) } }
                 (head(&table.columns))
                 tbody {
                     @if table.rows().is_empty() {
@@ -73,7 +87,6 @@ fn head(columns: &[Column]) -> Markup {
 fn align(column: &Column) -> &'static str {
     match column.align {
         Align::Left => "left",
-        Align::Centre => "centre",
         Align::Right => "right",
     }
 }

@@ -1,195 +1,143 @@
 //! Errors per region and precision, laws, and parity with the device.
 
-use super::{Evidence, bare, count, device_notice, no_device, place};
+use super::{Evidence, bare, device_notice, on_device, place};
 use crate::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
 use crate::effect::Yardstick;
 use crate::numeric::measured::Measured;
 use crate::validate::accuracy::Accuracy;
-use crate::validate::laws::LawStanding;
+use crate::validate::laws::{LawStanding, LawVerdict};
 use crate::validate::parity::BINS;
+use crate::validate::study::CandidateStudy;
 
 pub(super) fn section(evidence: &Evidence<'_>) -> Section {
-    let mut section = Section::new("Accuracy").paragraph(
+    let section = Section::new("Accuracy").paragraph(
         "Measured on points that were not fitted: an offset grid, seeded random points and the hard \
          cases. f64 is the formula itself; f32 the constants as shipped with correctly rounded \
          elementary functions; the device evaluates the same text.",
     );
-    section = device_notice(section, &evidence.costs.adapter);
-    for region in evidence.effect.regions {
-        let rows: Vec<(&str, &Accuracy)> = evidence
-            .study
-            .candidates
-            .iter()
-            .filter_map(|fit| {
-                let found = fit.regions.iter().find(|(name, _)| name == region.name)?;
-                Some((bare(&fit.name), &found.1))
-            })
-            .collect();
-        if !rows.is_empty() {
-            let caption = format!("Region {}: {}", region.name, region.description);
-            let unit = units(evidence, rows.iter().map(|(name, _)| *name));
-            section = section.block(table(caption, &rows, &unit));
-        }
-    }
-    for set in evidence.effect.hard_cases {
-        let rows: Vec<(&str, &Accuracy)> = evidence
-            .study
-            .candidates
-            .iter()
-            .filter_map(|fit| {
-                let found = fit.hard_cases.iter().find(|(name, _)| name == set.name)?;
-                Some((bare(&fit.name), &found.1))
-            })
-            .collect();
-        if !rows.is_empty() {
-            let caption = format!("Hard cases ({}): {}", set.name, set.description);
-            let unit = units(evidence, rows.iter().map(|(name, _)| *name));
-            section = section.block(table(caption, &rows, &unit));
-        }
-    }
-    section
+    let section = device_notice(section, &evidence.costs.adapter);
+    let with = |section: Section, caption: String, of: &dyn Fn(&CandidateStudy) -> Found<'_>| {
+        let judged = |fit| Some((fit, of(fit)?));
+        let rows: Vec<_> = evidence.study.candidates.iter().filter_map(judged).collect();
+        if rows.is_empty() { section } else { section.block(table(caption, &rows)) }
+    };
+    let section = evidence.effect.regions.iter().fold(section, |section, region| {
+        let caption = format!("Region {}: {}", region.name, region.description);
+        with(section, caption, &|fit| named(&fit.regions, region.name))
+    });
+    evidence.effect.hard_cases.iter().fold(section, |section, set| {
+        let caption = format!("Hard cases ({}): {}", set.name, set.description);
+        with(section, caption, &|fit| named(&fit.hard_cases, set.name))
+    })
+}
+
+type Found<'a> = Option<&'a Accuracy>;
+
+fn named<'a>(judged: &'a [(String, Accuracy)], name: &str) -> Found<'a> {
+    judged.iter().find(|(of, _)| of == name).map(|(_, accuracy)| accuracy)
 }
 
 /// Units of the references that fits are judged by in a table.
-fn units<'a>(evidence: &Evidence<'_>, names: impl Iterator<Item = &'a str>) -> String {
+fn units(rows: &[(&CandidateStudy, &Accuracy)]) -> String {
     let mut units: Vec<&str> = Vec::new();
-    for name in names {
-        let fit = evidence.study.candidates.iter().find(|fit| bare(&fit.name) == name);
-        if let Some(fit) = fit.filter(|fit| !units.contains(&fit.reference.unit)) {
+    for (fit, _) in rows {
+        if !units.contains(&fit.reference.unit) {
             units.push(fit.reference.unit);
         }
     }
     units.join(" or ")
 }
 
-fn table(caption: String, rows: &[(&str, &Accuracy)], unit: &str) -> Table {
-    let by_norm = rows.iter().any(|(_, accuracy)| accuracy.yardstick == Yardstick::RelativeL2);
-    let mut columns = vec![
-        Column::code("fit"),
-        Column::number("max |error|, f64", unit),
-        Column::number("max |error|, f32", unit),
-        Column::number("max |error|, device", unit),
-        Column::number("RMS, f32", unit),
-        Column::number("bias, f32", unit),
-        Column::number("p99, f32", unit),
-        Column::number("max relative, f32", "1"),
-        Column::text("where (f32)"),
-    ];
-    if by_norm {
+fn table(caption: String, rows: &[(&CandidateStudy, &Accuracy)]) -> Table {
+    let unit = units(rows);
+    let of_errors = |title: &str| Column::number(title, unit.as_str());
+    let mut table = Table::over(caption, rows)
+        .column(Column::code("fit"), |(fit, _)| Cell::text(bare(&fit.name)));
+    if rows.iter().any(|(_, accuracy)| accuracy.yardstick == Yardstick::RelativeL2) {
         let grouped = rows.iter().any(|(_, accuracy)| !accuracy.relative_l2.at.is_empty());
         let title = if grouped { "relative L2, worst group" } else { "relative L2" };
-        columns.insert(1, Column::number(title, "1"));
-        columns.insert(2, Column::text("worst group"));
+        table = table
+            .column(Column::number(title, "1"), |(_, of)| Cell::number(of.relative_l2.value, 3))
+            .column(Column::text("worst group"), |(_, of)| Cell::text(place(&of.relative_l2.at)));
     }
-    let mut table = Table::new(caption, columns);
-    for (name, accuracy) in rows {
-        let device = match &accuracy.device {
-            Measured::Value(residuals) => Cell::number(residuals.max_abs, 4),
-            Measured::NotMeasured(_) => no_device(),
-        };
-        let mut row = vec![
-            Cell::text(*name),
-            Cell::number(accuracy.f64.max_abs, 4),
-            Cell::number(accuracy.f32.max_abs, 4),
-            device,
-            Cell::number(accuracy.f32.rms, 4),
-            Cell::number(accuracy.f32.bias, 3),
-            Cell::number(accuracy.f32.p99, 3),
-            Cell::number_or(accuracy.f32.max_rel, 3, "the target is 0 everywhere"),
-            Cell::text(place(&accuracy.f32.max_abs_at)),
-        ];
-        if by_norm {
-            row.insert(1, Cell::number(accuracy.relative_l2.value, 3));
-            row.insert(2, Cell::text(place(&accuracy.relative_l2.at)));
-        }
-        table.push(row);
-    }
+    let largest = |title| of_errors(title).grouped("max |error|");
     table
+        .column(largest("f64"), |(_, of)| Cell::number(of.f64.max_abs, 4))
+        .column(largest("f32"), |(_, of)| Cell::number(of.f32.max_abs, 4))
+        .column(largest("device"), |(_, of)| on_device(&of.device.map(|found| found.max_abs), 4))
+        .column(of_errors("RMS, f32"), |(_, of)| Cell::number(of.f32.rms, 4))
+        .column(of_errors("bias, f32"), |(_, of)| Cell::number(of.f32.bias, 3))
+        .column(of_errors("p99, f32"), |(_, of)| Cell::number(of.f32.p99, 3))
+        .column(Column::number("max relative, f32", "1"), |(_, of)| {
+            Cell::number_or(of.f32.max_rel, 3, "the target is 0 everywhere")
+        })
+        .column(Column::text("where (f32)"), |(_, of)| Cell::text(place(&of.f32.max_abs_at)))
+        .table()
 }
 
 pub(super) fn laws_section(evidence: &Evidence<'_>) -> Section {
-    let mut section = Section::new("Laws");
+    let section = Section::new("Laws");
     if evidence.study.laws.is_empty() {
         return section.paragraph("No law is stated for this effect.");
     }
-    section = section.block(Block::List(
-        evidence
-            .effect
-            .laws
-            .iter()
-            .map(|law| format!("`{}`: {}", law.name, law.description).into())
-            .collect(),
-    ));
-    let mut table = Table::new(
+    let stated = evidence.effect.laws.iter();
+    let stated = stated.map(|law| format!("`{}`: {}", law.name, law.description).into());
+    let verdict = |law: &&LawVerdict| match &law.verdict {
+        LawStanding::Holds => Cell::verdict_as(Verdict::Pass, "holds"),
+        LawStanding::Known(_) => Cell::verdict_as(Verdict::Warn, "known violation"),
+        LawStanding::Violated => Cell::verdict_as(Verdict::Fail, "violated"),
+    };
+    let table = Table::over(
         "Every law against every fit, in f32, at the points where it is most likely to break.",
-        vec![
-            Column::code("fit"),
-            Column::code("law"),
-            Column::number("worst violation", "1"),
-            Column::number("accepted", "1"),
-            Column::verdict("verdict"),
-            Column::text("reason"),
-        ],
-    );
-    for law in &evidence.study.laws {
-        let (verdict, reason) = match &law.verdict {
-            LawStanding::Holds => (Cell::verdict_as(Verdict::Pass, "holds"), ""),
-            LawStanding::Known(reason) => {
-                (Cell::verdict_as(Verdict::Warn, "known violation"), reason.as_str())
-            }
-            LawStanding::Violated => (Cell::verdict_as(Verdict::Fail, "violated"), ""),
-        };
-        table.push(vec![
-            Cell::text(bare(&law.fit)),
-            Cell::text(law.law.clone()),
-            Cell::number(law.violation, 3),
-            Cell::number(law.tolerance, 3),
-            verdict,
-            Cell::text(reason),
-        ]);
-    }
-    section.block(table)
+        &evidence.study.laws,
+    )
+    .column(Column::code("fit"), |law| Cell::text(bare(&law.fit)))
+    .column(Column::code("law"), |law| Cell::text(law.law.as_str()))
+    .column(Column::number("worst violation", "1"), |law| Cell::number(law.violation, 3))
+    .column(Column::number("accepted", "1"), |law| Cell::number(law.tolerance, 3))
+    .column(Column::verdict("verdict"), verdict)
+    .column(Column::text("reason"), |law| match &law.verdict {
+        LawStanding::Known(reason) => Cell::text(reason.as_str()),
+        LawStanding::Holds | LawStanding::Violated => Cell::text(""),
+    });
+    section.block(Block::List(stated.collect())).block(table)
 }
 
 pub(super) fn parity_section(evidence: &Evidence<'_>) -> Section {
-    let section = Section::new("Parity with the device");
-    let mut columns = vec![Column::code("fit"), Column::number("points", "1")];
-    columns.extend(BINS.iter().enumerate().map(|(at, end)| {
-        let title = match at {
-            0 => "equal".to_owned(),
-            _ if *end == u64::MAX => format!("> {} ulp", BINS[at - 1]),
-            _ => format!("≤ {end} ulp"),
-        };
-        Column::number(title, "1")
-    }));
-    columns.extend([
-        Column::number("max", "ulp"),
-        Column::number("max |difference|", "1"),
-        Column::number("NaN on one side", "1"),
-    ]);
-    let mut table = Table::new(
-        "Distance between the device and the f32 lanes, in units in the last place of the result.",
-        columns,
-    );
-    let mut reasons = Vec::new();
+    let (mut found, mut reasons) = (Vec::new(), Vec::new());
     for fit in &evidence.study.candidates {
         match &fit.parity {
-            Measured::Value(parity) => {
-                let mut row = vec![Cell::text(bare(&fit.name)), count(parity.count)];
-                row.extend(parity.histogram.iter().map(|points| count(*points)));
-                row.extend([
-                    count(usize::try_from(parity.max_ulp).unwrap_or(usize::MAX)),
-                    Cell::number(parity.max_abs, 3),
-                    count(parity.nan_mismatches),
-                ]);
-                table.push(row);
-            }
-            Measured::NotMeasured(reason) => reasons.push(reason.clone()),
+            Measured::Value(parity) => found.push((bare(&fit.name), parity)),
+            Measured::NotMeasured(reason) => reasons.push(reason.as_str()),
         }
     }
     reasons.dedup();
-    let section = if table.rows().is_empty() { section } else { section.block(table) };
-    reasons.into_iter().fold(section, |section, reason| {
-        section.block(Block::Notice { level: NoticeLevel::NotMeasured, text: reason.into() })
+    let section =
+        reasons.into_iter().fold(Section::new("Parity with the device"), |section, reason| {
+            section.notice(NoticeLevel::NotMeasured, reason)
+        });
+    if found.is_empty() {
+        return section;
+    }
+    let table = Table::over(
+        "Distance between the device and the f32 lanes, in units in the last place of the result.",
+        found,
+    )
+    .column(Column::code("fit"), |(fit, _)| Cell::text(*fit))
+    .column(Column::number("points", "1"), |(_, parity)| Cell::count(parity.count))
+    .columns(
+        0..BINS.len(),
+        |at| match (*at, BINS[*at]) {
+            (0, _) => Column::number("equal", "1"),
+            (at, u64::MAX) => Column::number(format!("> {} ulp", BINS[at - 1]), "1"),
+            (_, end) => Column::number(format!("≤ {end} ulp"), "1"),
+        },
+        |(_, parity), at| Cell::count(parity.histogram[*at]),
+    )
+    .column(Column::number("max", "ulp"), |(_, parity)| {
+        Cell::count(usize::try_from(parity.max_ulp).unwrap_or(usize::MAX))
     })
+    .column(Column::number("max |difference|", "1"), |(_, of)| Cell::number(of.max_abs, 3))
+    .column(Column::number("NaN on one side", "1"), |(_, of)| Cell::count(of.nan_mismatches));
+    section.block(table)
 }

@@ -1,18 +1,32 @@
 //! Error against cost, with the frontier drawn.
 
-use super::{Evidence, bare, count, device_notice, no_device};
+use super::{Evidence, bare, device_notice, on_device};
 use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Cell, Column, Figure, Highlight, Section, Table, Verdict};
-use crate::effect::Yardstick;
+use crate::document::{Block, Cell, Column, Figure, Highlight, Section, Table, Verdict, number};
+use crate::effect::{Effect, Yardstick};
+use crate::gpu::{Measurement, Spread};
 use crate::numeric::measured::Measured;
-use crate::validate::cheapest::{Cheapest, cheapest};
-use crate::validate::cost::{Cost, Costs};
+use crate::validate::cheapest::{Cheapest, LIMITS, cheapest};
+use crate::validate::cost::Costs;
 use crate::validate::goals::{GoalVerdict, goals};
+use crate::validate::standing::{Answers, Standing, standings};
+use crate::validate::study::Study;
 
 pub(super) fn section(evidence: &Evidence<'_>) -> Section {
-    let costs = evidence.costs;
-    let mut section = Section::new("Error against cost");
-    section = match &costs.adapter {
+    let Evidence { effect, study, costs, .. } = *evidence;
+    let mut section = cost_section("Error against cost", effect, study, costs);
+    // The figures stand between what is concluded and the tables.
+    let place = section.blocks.iter().position(|block| matches!(block, Block::Table(_)));
+    let place = place.unwrap_or(section.blocks.len());
+    section.blocks.splice(place..place, figures(evidence).into_iter().map(Block::from));
+    section.block(operations(costs))
+}
+
+/// What the forms of an effect cost and how they stand: what follows for a renderer, then tables.
+pub fn cost_section(title: &str, effect: &Effect, study: &Study, costs: &Costs) -> Section {
+    let standings = standings(study, costs);
+    let section = Section::new(title);
+    let section = match &costs.adapter {
         Measured::Value(adapter) => section.paragraph(format!(
             "Device: {adapter}. Medians of interleaved rounds in one run, net of an empty kernel; \
              ratios refer to {}.",
@@ -21,115 +35,97 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Section {
         Measured::NotMeasured(_) => device_notice(section, &costs.adapter)
             .paragraph("Costs below are those of the f32 lanes on one core."),
     };
-    let groups: Vec<&str> = groups(costs);
-    let drawn = groups
-        .iter()
-        .map(|group| (group, errors(evidence, group)))
-        .filter(|(_, (points, _))| points.len() > 1);
-    for (number, (group, (points, yardstick))) in drawn.enumerate() {
-        let (axis, where_measured) = match &costs.adapter {
-            Measured::Value(_) => (Axis::log("cost on the device", "ns per evaluation"), "device"),
-            Measured::NotMeasured(_) => {
-                (Axis::log("cost on f32 lanes", "ns per evaluation"), "f32 lanes")
-            }
-        };
-        let mut plot = Plot::new(
-            match groups.len() {
-                1 => format!("{}: error against cost", evidence.effect.title),
-                _ => format!("Error against cost, beside {}", bare(group)),
-            },
-            axis,
-            Axis::log(format!("{}, f32", yardstick.words()), "1"),
-        )
-        .series(Series::markers("forms", points.iter().map(|(_, cost, error)| (*cost, *error))))
-        .with_frontier();
-        for (name, cost, error) in &points {
-            plot = plot.annotate(*cost, *error, bare(name));
-        }
-        section = section.block(Figure::new(
-            match number {
-                0 => format!("{}-cost", evidence.effect.name.replace('_', "-")),
-                _ => format!("{}-cost-{number}", evidence.effect.name.replace('_', "-")),
-            },
-            format!(
-                "Error against cost ({where_measured}); the staircase joins the forms that no other \
-                 beats in both."
-            ),
-            plot,
-        ));
-    }
-    section = section.block(table(costs)).block(references(costs));
-    let least = cheapest(evidence.study, costs);
+    let answers = groups(costs).into_iter().filter_map(|name| Answers::of(&standings, name));
+    let mut section = section
+        .block(Block::List(answers.map(|answers| answer(&answers).into()).collect()))
+        .block(table(&standings, costs));
+    let least = cheapest(study, costs);
     if !least.is_empty() {
         section = section.block(cheapest_table(&least));
     }
-    let verdicts = goals(evidence.effect, evidence.study, costs);
-    if verdicts.is_empty() { section } else { section.block(goal_table(&verdicts)) }
+    let verdicts = goals(effect, study, costs);
+    if !verdicts.is_empty() {
+        section = section.block(goal_table(&verdicts));
+    }
+    section.block(references(costs))
 }
 
-fn cheapest_table(least: &[Cheapest]) -> Table {
-    let mut table = Table::new(
-        "The cheapest fit for an error, region by region, with its cost relative to the baseline in \
-         brackets. Errors in f32 by the yardstick of the region.",
-        vec![
-            Column::text("region"),
-            Column::code("baseline"),
-            Column::text("≤ 10 %"),
-            Column::text("≤ 1 %"),
-            Column::text("≤ 0.1 %"),
-        ],
-    );
-    for one in least {
-        let mut row = vec![Cell::text(one.region.clone()), Cell::text(bare(&one.baseline))];
-        row.extend(one.fits.iter().map(|best| match best {
-            Some((fit, ratio)) => {
-                let ratio = crate::document::cell::number(*ratio, 2);
-                Cell::text(format!("`{}` ({ratio}×)", bare(fit)))
+/// What is as cheap as the baseline and better, and what is better and cheapest.
+fn answer(answers: &Answers<'_>) -> String {
+    let Answers { baseline, as_cheap, better } = answers;
+    let shown = |one: &Standing<'_>| {
+        let ratio = one.cost.nanoseconds() / baseline.cost.nanoseconds();
+        format!("`{}` ({} at {}×)", bare(one.fit), number(one.worst(), 3), number(ratio, 3))
+    };
+    let mut text =
+        format!("Baseline `{}`: error {}.", bare(baseline.fit), number(baseline.worst(), 3));
+    if let Some(one) = as_cheap {
+        text += &format!(" Most accurate at no more than its cost: {}.", shown(one));
+    }
+    if let Some(one) = better {
+        text += &format!(" Cheapest that is more accurate: {}.", shown(one));
+    }
+    text
+}
+
+fn figures(evidence: &Evidence<'_>) -> Vec<Figure> {
+    let (effect, costs) = (evidence.effect, evidence.costs);
+    let groups = groups(costs);
+    let (axis, place) = match &costs.adapter {
+        Measured::Value(_) => ("cost on the device", "device"),
+        Measured::NotMeasured(_) => ("cost on f32 lanes", "f32 lanes"),
+    };
+    let figure = |(number, (group, (points, yardstick))): (usize, (&&str, Points<'_>))| {
+        let title = match groups.len() {
+            1 => format!("{}: error against cost", effect.title),
+            _ => format!("Error against cost, beside {}", bare(group)),
+        };
+        let x = Axis::log(axis, "ns per evaluation");
+        let y = Axis::log(format!("{}, f32", yardstick.words()), "1");
+        let marked = points.iter().map(|(_, cost, error)| (*cost, *error));
+        let plot = Plot::new(title, x, y).series(Series::markers("forms", marked)).with_frontier();
+        let plot = points
+            .iter()
+            .fold(plot, |plot, (name, cost, error)| plot.annotate(*cost, *error, bare(name)));
+        let slug = effect.name.replace('_', "-");
+        let stem = match number {
+            0 => format!("{slug}-cost"),
+            _ => format!("{slug}-cost-{number}"),
+        };
+        let caption = format!(
+            "Error against cost ({place}); the staircase joins the forms that no other beats in both."
+        );
+        Figure::new(stem, caption, plot)
+    };
+    let drawn = groups.iter().map(|group| (group, errors(evidence, group)));
+    drawn.filter(|(_, (points, _))| points.len() > 1).enumerate().map(figure).collect()
+}
+
+/// Name, cost and error of fits, and what error that is.
+type Points<'a> = (Vec<(&'a str, f64, f64)>, Yardstick);
+
+/// Every timed fit of the group that refers to `baseline`: over its first region for fits to a
+/// reference, over all members for fits to a family.
+fn errors<'a>(evidence: &Evidence<'a>, baseline: &str) -> Points<'a> {
+    let study = evidence.study;
+    let mut yardstick = Yardstick::MaxAbs;
+    let timed = evidence.costs.forms.iter().filter(|cost| cost.baseline == baseline);
+    let points = timed.filter_map(|cost| {
+        let single = study.candidates.iter().find(|fit| fit.name == cost.name);
+        let error = match single {
+            Some(fit) if study.families.is_empty() => {
+                let accuracy = &fit.regions.first()?.1;
+                yardstick = accuracy.yardstick;
+                accuracy.headline()
             }
-            None => Cell::text("none"),
-        }));
-        table.push(row);
-    }
-    table
-}
-
-fn goal_table(verdicts: &[GoalVerdict]) -> Table {
-    let mut table = Table::new(
-        "What was set out to be reached, beside what is reached: error on the device (in f32 where \
-         there is none) and cost relative to the baseline.",
-        vec![
-            Column::code("fit"),
-            Column::text("error, region"),
-            Column::number("asked", "1"),
-            Column::number("reached", "1"),
-            Column::code("baseline"),
-            Column::number("cost asked", "1"),
-            Column::number("cost", "1"),
-            Column::verdict("verdict"),
-            Column::text("why"),
-        ],
-    );
-    for goal in verdicts {
-        table.push(vec![
-            Cell::text(bare(&goal.fit)),
-            Cell::text(format!("{}, {}", goal.yardstick, goal.region)),
-            Cell::number(goal.error_asked, 3),
-            Cell::number(goal.error, 3),
-            Cell::text(bare(&goal.baseline)),
-            Cell::number(goal.cost_asked, 3),
-            match &goal.cost {
-                Measured::Value(ratio) => Cell::number(*ratio, 3),
-                Measured::NotMeasured(_) => no_device(),
-            },
-            match &goal.met {
-                Measured::Value(true) => Cell::verdict_as(Verdict::Pass, "met"),
-                Measured::Value(false) => Cell::verdict_as(Verdict::Fail, "not met"),
-                Measured::NotMeasured(reason) => Cell::missing(reason.clone()),
-            },
-            Cell::text(goal.why.clone()),
-        ]);
-    }
-    table
+            _ => {
+                let mut forms = study.families.iter().flat_map(|family| &family.forms);
+                forms.find(|form| form.fit == cost.name)?.max_abs
+            }
+        };
+        Some((cost.name.as_str(), cost.nanoseconds(), error))
+    });
+    (points.collect(), yardstick)
 }
 
 /// The baselines of the groups of forms that are compared, in order.
@@ -148,99 +144,112 @@ fn baselines(costs: &Costs) -> String {
     }
 }
 
-/// Name, cost and error of every timed fit of the group that refers to `baseline`: over its first
-/// region for fits to a reference, over all members for fits to a family; and what error that is.
-fn errors<'a>(evidence: &Evidence<'a>, baseline: &str) -> (Vec<(&'a str, f64, f64)>, Yardstick) {
-    let study = evidence.study;
-    let mut yardstick = Yardstick::MaxAbs;
-    let points = evidence
-        .costs
-        .forms
-        .iter()
-        .filter(|cost| cost.baseline == baseline)
-        .filter_map(|cost| {
-            let single = study.candidates.iter().find(|fit| fit.name == cost.name);
-            let error = match single {
-                Some(fit) if study.families.is_empty() => {
-                    let accuracy = &fit.regions.first()?.1;
-                    yardstick = accuracy.yardstick;
-                    accuracy.headline()
-                }
-                _ => {
-                    study
-                        .families
-                        .iter()
-                        .flat_map(|family| &family.forms)
-                        .find(|form| form.fit == cost.name)?
-                        .max_abs
-                }
-            };
-            Some((cost.name.as_str(), cost.nanoseconds(), error))
-        })
-        .collect();
-    (points, yardstick)
-}
-
-fn table(costs: &Costs) -> Table {
-    let mut table = Table::new(
-        "Cost per evaluation. Lanes: one core, interpreted from naga's IR.",
-        vec![
-            Column::code("fit"),
-            Column::number("add, multiply", "1"),
-            Column::number("divide, root", "1"),
-            Column::number("elementary", "1"),
-            Column::number("branches", "1"),
-            Column::number("table reads", "1"),
-            Column::number("f64 lanes", "ns"),
-            Column::number("f32 lanes", "ns"),
-            Column::number("device", "ns"),
-            Column::number("device, quartiles", "ns"),
-            Column::number("ratio to baseline", "1"),
-        ],
-    );
-    for cost in &costs.forms {
-        table.push(row(cost, costs.adapter.value().is_some()));
-    }
-    table
-}
-
-fn row(cost: &Cost, has_device: bool) -> Vec<Cell> {
-    let operations = &cost.operations;
-    let mut row = vec![
-        Cell::text(bare(&cost.name)),
-        count(operations.arithmetic as usize),
-        count(operations.divide_sqrt as usize),
-        count(operations.elementary as usize),
-        count(operations.branches as usize),
-        count(operations.table_reads as usize),
-        Cell::number(cost.lanes_f64_ns, 3),
-        Cell::number(cost.lanes_f32_ns, 3),
-    ];
-    match &cost.device {
-        Measured::Value(timing) => row.extend([
-            Cell::number(timing.net_ns.median, 3),
-            Cell::text(format!("{:.3} – {:.3}", timing.net_ns.p25, timing.net_ns.p75)),
-            Cell::number_or(timing.ratio.map(|ratio| ratio.median), 3, "no baseline to refer to"),
-        ]),
-        // A form that a device there was did not measure says why.
-        Measured::NotMeasured(reason) if has_device => {
-            row.extend((0..3).map(|_| Cell::missing(reason.clone())));
+fn table(standings: &[Standing<'_>], costs: &Costs) -> Table {
+    let has_device = costs.adapter.value().is_some();
+    let timed = |of: fn(&Measurement) -> Cell| {
+        move |one: &&Standing<'_>| match &one.cost.device {
+            Measured::Value(timing) => of(timing),
+            // A form that a device there was did not measure says why.
+            Measured::NotMeasured(why) if has_device => Cell::missing(why.as_str()),
+            Measured::NotMeasured(_) => Cell::missing("no device"),
         }
-        Measured::NotMeasured(_) => row.extend((0..3).map(|_| no_device())),
-    }
-    if cost.name == cost.baseline {
-        row = row.into_iter().map(|cell| cell.highlighted(Highlight::Subject)).collect();
-    }
-    row
+    };
+    Table::over(
+        "Cost per evaluation, the cheapest first. Lanes: one core, interpreted from naga's IR. On \
+         the frontier: no fit to the same reference errs less at no more cost.",
+        standings,
+    )
+    .column(Column::code("fit"), |one| Cell::text(bare(one.fit)))
+    .column(Column::text("frontier"), |one| Cell::text(if one.frontier { "●" } else { "" }))
+    .column(Column::text("error, f32"), |one| {
+        let errors = one.error.iter();
+        let errors = errors.map(|(region, error)| format!("{} ({region})", number(*error, 3)));
+        Cell::text(errors.collect::<Vec<_>>().join(", "))
+    })
+    .column(Column::number("device", "ns"), timed(|of| Cell::number(of.net_ns.median, 3)))
+    .column(Column::text("quartiles [ns]"), timed(|of| quartiles(Some(of.net_ns))))
+    .column(
+        Column::number("ratio to baseline", "1"),
+        timed(|of| {
+            Cell::number_or(of.ratio.map(|ratio| ratio.median), 3, "no baseline to refer to")
+        }),
+    )
+    .column(Column::text("quartiles of the ratio"), timed(|of| quartiles(of.ratio)))
+    .column(Column::number("f32 lanes", "ns"), |one| Cell::number(one.cost.lanes_f32_ns, 3))
+    .column(Column::number("f64 lanes", "ns"), |one| Cell::number(one.cost.lanes_f64_ns, 3))
+    .highlighted(Highlight::Subject, |one| one.fit == one.cost.baseline)
+    .table()
+}
+
+fn quartiles(of: Option<Spread>) -> Cell {
+    let shown = |of: Spread| format!("{} – {}", number(of.p25, 3), number(of.p75, 3));
+    Cell::text(of.map(shown).unwrap_or_default())
+}
+
+fn operations(costs: &Costs) -> Table {
+    let kinds = ["add, multiply", "divide, root", "elementary", "branches", "table reads"];
+    Table::over("Operations in the text.", &costs.forms)
+        .column(Column::code("fit"), |cost| Cell::text(bare(&cost.name)))
+        .columns(
+            kinds.into_iter().enumerate(),
+            |(_, kind)| Column::number(*kind, "1"),
+            |cost, (at, _)| {
+                let of = &cost.operations;
+                let counts =
+                    [of.arithmetic, of.divide_sqrt, of.elementary, of.branches, of.table_reads];
+                Cell::count(counts[*at] as usize)
+            },
+        )
+        .table()
+}
+
+fn cheapest_table(least: &[Cheapest]) -> Table {
+    let best = |best: &Option<(String, f64)>| match best {
+        Some((fit, ratio)) => Cell::text(format!("`{}` ({}×)", bare(fit), number(*ratio, 2))),
+        None => Cell::text("none"),
+    };
+    Table::over(
+        "The cheapest fit for an error, region by region, with its cost relative to the baseline in \
+         brackets. Errors in f32 by the yardstick of the region.",
+        least,
+    )
+    .column(Column::text("region"), |of| Cell::text(of.region.as_str()))
+    .column(Column::code("baseline"), |of| Cell::text(bare(&of.baseline)))
+    .columns(
+        LIMITS.into_iter().enumerate(),
+        |(_, limit)| Column::text(format!("≤ {} %", 100.0 * limit)),
+        |of, (at, _)| best(&of.fits[*at]),
+    )
+    .table()
+}
+
+fn goal_table(verdicts: &[GoalVerdict]) -> Table {
+    Table::over(
+        "What was set out to be reached, beside what is reached: error on the device (in f32 where \
+         there is none) and cost relative to the baseline.",
+        verdicts,
+    )
+    .column(Column::code("fit"), |goal| Cell::text(bare(&goal.fit)))
+    .column(Column::text("error, region"), |goal| {
+        Cell::text(format!("{}, {}", goal.yardstick, goal.region))
+    })
+    .column(Column::number("asked", "1"), |goal| Cell::number(goal.error_asked, 3))
+    .column(Column::number("reached", "1"), |goal| Cell::number(goal.error, 3))
+    .column(Column::code("baseline"), |goal| Cell::text(bare(&goal.baseline)))
+    .column(Column::number("cost asked", "1"), |goal| Cell::number(goal.cost_asked, 3))
+    .column(Column::number("cost", "1"), |goal| on_device(&goal.cost, 3))
+    .column(Column::verdict("verdict"), |goal| match &goal.met {
+        Measured::Value(true) => Cell::verdict_as(Verdict::Pass, "met"),
+        Measured::Value(false) => Cell::verdict_as(Verdict::Fail, "not met"),
+        Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
+    })
+    .column(Column::text("why"), |goal| Cell::text(goal.why.as_str()))
+    .table()
 }
 
 fn references(costs: &Costs) -> Table {
-    let mut table = Table::new(
-        "Cost of the references, one core, for scale.",
-        vec![Column::code("reference"), Column::number("f64", "ns")],
-    );
-    for reference in &costs.references {
-        table.push(vec![Cell::text(reference.name.clone()), Cell::number(reference.ns, 3)]);
-    }
-    table
+    Table::over("Cost of the references, one core, for scale.", &costs.references)
+        .column(Column::code("reference"), |of| Cell::text(of.name.as_str()))
+        .column(Column::number("f64", "ns"), |of| Cell::number(of.ns, 3))
+        .table()
 }

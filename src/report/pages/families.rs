@@ -1,13 +1,13 @@
 //! Fits to families of measured tables, and what finer fitting is worth.
 
-use super::{Evidence, bare, count, place};
+use super::{Evidence, bare, place};
 use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Block, Cell, Column, Figure, Section, Table};
+use crate::document::{Block, Cell, Column, Figure, Section, Table, number};
 use crate::effect::{Family, Member};
 use crate::project::Approximated;
 use crate::validate::ValidateError;
 use crate::validate::curves::over_member;
-use crate::validate::family::{Choice, choices, group_rms};
+use crate::validate::family::{Choice, FormOverFamily, choices, group_rms};
 use crate::validate::study::FamilyStudy;
 
 /// Errors below this magnitude are drawn linearly, larger ones by ratio: the forms span decades.
@@ -40,7 +40,7 @@ pub(super) fn section(
     }
     Ok(section.block(Block::Details {
         summary: "Every member, every form: RMS in f32 on held-out points".into(),
-        blocks: vec![Block::Table(member_table(family))],
+        blocks: vec![member_table(family).into()],
     }))
 }
 
@@ -58,92 +58,59 @@ fn cost(evidence: &Evidence<'_>, fit: &str) -> f64 {
 }
 
 fn forms_table(family: &FamilyStudy, cost: &[f64]) -> Table {
-    let mut table = Table::new(
+    let mut forms: Vec<_> = family.forms.iter().zip(cost).collect();
+    forms.sort_by(|(a, _), (b, _)| b.rms.total_cmp(&a.rms));
+    let spread = |form: &FormOverFamily| {
+        let spread = form.constant_spread.iter();
+        let spread = spread.map(|(name, half)| format!("{name} ± {}", number(*half, 2)));
+        let spread = spread.collect::<Vec<_>>().join(", ");
+        Cell::text(if spread.is_empty() { "–".to_owned() } else { spread })
+    };
+    Table::over(
         "Every form over all members, in f32, on held-out points with grazing and the dips among them. \
          Spread: half the difference of a constant between sources of one material, RMS over \
          materials and bands: what a constant is known to.",
-        vec![
-            Column::code("fit"),
-            Column::number("free constants", "1"),
-            Column::number("RMS", "1"),
-            Column::number("max", "1"),
-            Column::text("worst member"),
-            Column::text("where"),
-            Column::number("cost", "ns"),
-            Column::text("spread of the constants between sources"),
-        ],
-    );
-    let mut order: Vec<usize> = (0..family.forms.len()).collect();
-    order.sort_by(|a, b| family.forms[*b].rms.total_cmp(&family.forms[*a].rms));
-    for at in order {
-        let form = &family.forms[at];
-        let spread = form
-            .constant_spread
-            .iter()
-            .map(|(name, half)| format!("{name} ± {}", crate::document::cell::number(*half, 2)))
-            .collect::<Vec<_>>()
-            .join(", ");
-        table.push(vec![
-            Cell::text(bare(&form.fit)),
-            count(form.free),
-            Cell::number(form.rms, 3),
-            Cell::number(form.max_abs, 3),
-            Cell::text(form.max_member.clone()),
-            Cell::text(place(&form.max_at)),
-            Cell::number(cost[at], 3),
-            Cell::text(if spread.is_empty() { "–".into() } else { spread }),
-        ]);
-    }
-    table
+        forms,
+    )
+    .column(Column::code("fit"), |(form, _)| Cell::text(bare(&form.fit)))
+    .column(Column::number("free constants", "1"), |(form, _)| Cell::count(form.free))
+    .column(Column::number("RMS", "1"), |(form, _)| Cell::number(form.rms, 3))
+    .column(Column::number("max", "1"), |(form, _)| Cell::number(form.max_abs, 3))
+    .column(Column::text("worst member"), |(form, _)| Cell::text(form.max_member.as_str()))
+    .column(Column::text("where"), |(form, _)| Cell::text(place(&form.max_at)))
+    .column(Column::number("cost", "ns"), |(_, cost)| Cell::number(**cost, 3))
+    .column(Column::text("spread of the constants between sources"), |(form, _)| spread(form))
+    .table()
 }
 
 fn choice_table(choices: &[Choice]) -> Table {
-    let mut table = Table::new(
+    Table::over(
         "For each material, the cheapest form whose error stays within the spread of its sources.",
-        vec![
-            Column::text("material"),
-            Column::number("spread of the sources, RMS", "1"),
-            Column::code("cheapest within it"),
-            Column::number("its RMS error", "1"),
-            Column::text("because"),
-        ],
-    );
-    for choice in choices {
-        table.push(vec![
-            Cell::text(choice.group.clone()),
-            Cell::number_or(choice.spread_rms, 3, "one source"),
-            choice.cheapest.as_deref().map_or_else(
-                || Cell::text(if choice.spread_rms.is_some() { "none" } else { "–" }),
-                |fit| Cell::text(bare(fit)),
-            ),
-            choice.rms.map_or_else(|| Cell::text("–"), |rms| Cell::number(rms, 3)),
-            Cell::text(choice.reason.clone()),
-        ]);
-    }
-    table
+        choices,
+    )
+    .column(Column::text("material"), |of| Cell::text(of.group.as_str()))
+    .column(Column::number("spread of the sources, RMS", "1"), |of| {
+        Cell::number_or(of.spread_rms, 3, "one source")
+    })
+    .column(Column::code("cheapest within it"), |of| {
+        let none = if of.spread_rms.is_some() { "none" } else { "–" };
+        Cell::text(of.cheapest.as_deref().map_or(none, bare))
+    })
+    .column(Column::number("its RMS error", "1"), |of| {
+        of.rms.map_or_else(|| Cell::text("–"), |rms| Cell::number(rms, 3))
+    })
+    .column(Column::text("because"), |of| Cell::text(of.reason.as_str()))
+    .table()
 }
 
 fn spread_table(family: &FamilyStudy) -> Table {
-    let mut table = Table::new(
-        "How far the sources of a material are apart.",
-        vec![
-            Column::text("material"),
-            Column::text("sources"),
-            Column::number("RMS difference", "1"),
-            Column::number("max difference", "1"),
-            Column::text("band of the max"),
-        ],
-    );
-    for spread in &family.spreads {
-        table.push(vec![
-            Cell::text(spread.group.clone()),
-            Cell::text(spread.sources.join(", ")),
-            Cell::number(spread.rms, 3),
-            Cell::number(spread.max_abs, 3),
-            Cell::text(spread.max_band.clone()),
-        ]);
-    }
-    table
+    Table::over("How far the sources of a material are apart.", &family.spreads)
+        .column(Column::text("material"), |of| Cell::text(of.group.as_str()))
+        .column(Column::text("sources"), |of| Cell::text(of.sources.join(", ")))
+        .column(Column::number("RMS difference", "1"), |of| Cell::number(of.rms, 3))
+        .column(Column::number("max difference", "1"), |of| Cell::number(of.max_abs, 3))
+        .column(Column::text("band of the max"), |of| Cell::text(of.max_band.as_str()))
+        .table()
 }
 
 fn groups(family: &FamilyStudy) -> Vec<&str> {
@@ -155,34 +122,25 @@ fn groups(family: &FamilyStudy) -> Vec<&str> {
 }
 
 fn group_table(family: &FamilyStudy) -> Table {
-    let mut columns = vec![Column::text("material")];
-    columns.extend(family.forms.iter().map(|form| Column::number(bare(&form.fit), "1")));
-    let mut table =
-        Table::new("RMS error per material, all bands and sources together, f32.", columns);
-    for group in groups(family) {
-        let mut row = vec![Cell::text(group)];
-        row.extend(family.forms.iter().map(|form| Cell::number(group_rms(form, group), 3)));
-        table.push(row);
-    }
-    table
+    Table::over("RMS error per material, all bands and sources together, f32.", groups(family))
+        .column(Column::text("material"), |group| Cell::text(*group))
+        .columns(&family.forms, named, |group, form| Cell::number(group_rms(form, group), 3))
+        .table()
 }
 
 fn member_table(family: &FamilyStudy) -> Table {
-    let mut columns = vec![Column::text("member")];
-    columns.extend(family.forms.iter().map(|form| Column::number(bare(&form.fit), "1")));
-    let mut table = Table::new("RMS error per member, f32.", columns);
-    let members = family.forms.first().map_or(0, |form| form.members.len());
-    for at in 0..members {
-        let mut row = vec![Cell::text(family.forms[0].members[at].label.clone())];
-        row.extend(family.forms.iter().map(|form| {
-            form.members.get(at).map_or_else(
-                || Cell::missing("no such member"),
-                |m| Cell::number(m.residuals.rms, 3),
-            )
-        }));
-        table.push(row);
-    }
-    table
+    let members = family.forms.first().map_or(&[][..], |form| &form.members);
+    Table::over("RMS error per member, f32.", members.iter().enumerate())
+        .column(Column::text("member"), |(_, member)| Cell::text(member.label.as_str()))
+        .columns(&family.forms, named, |(at, _), form| {
+            let rms = form.members.get(*at).map(|member| member.residuals.rms);
+            Cell::number_or(rms, 3, "no such member")
+        })
+        .table()
+}
+
+fn named(form: &&FormOverFamily) -> Column {
+    Column::number(bare(&form.fit), "1")
 }
 
 /// Error curves for one member of the groups on which the forms differ most.

@@ -1,63 +1,85 @@
 //! Gates and their margins.
 
-use serde::Serialize;
+use crate::document::{Cell, Column, NoticeLevel, Section, Table, Verdict};
+use crate::gate::Judgement;
 
-use crate::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
-
-/// A gate and how it came out, as the report shows it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct GateLine {
-    /// What is judged.
-    pub subject: String,
-    /// Which figure of it, in which precision and domain.
-    pub metric: String,
-    /// The figure, or why there is none.
-    pub measured: Result<f64, String>,
-    /// Its limit.
-    pub limit: f64,
-    /// Verdict.
-    pub verdict: Verdict,
-    /// Why the gate is there.
-    pub why: String,
+/// The gates that plainly pass, in their order, and those that need attention, failures first.
+pub fn by_attention<'a>(gates: &[&'a Judgement]) -> (Vec<&'a Judgement>, Vec<&'a Judgement>) {
+    let pass = |gate: &&Judgement| gate.verdict == Verdict::Pass;
+    let (passed, mut attention): (Vec<_>, Vec<_>) = gates.iter().copied().partition(pass);
+    attention.sort_by_key(|gate| std::cmp::Reverse(gate.verdict));
+    (passed, attention)
 }
 
-pub(super) fn section(gates: &[GateLine]) -> Section {
-    let section = Section::new("Gates");
+/// A line that sums up, and the gates that need attention.
+pub(super) fn attention_section(title: &str, gates: &[&Judgement]) -> Section {
+    let section = Section::new(title);
     if gates.is_empty() {
-        return section.block(Block::Notice {
-            level: NoticeLevel::Warning,
-            text: "No gate holds this page: nothing would notice a change.".into(),
-        });
+        let text = "No gate holds this: nothing would notice a change.";
+        return section.notice(NoticeLevel::Warning, text);
     }
-    let mut table = Table::new(
-        "Budgets of `fits/gates.toml`. The margin is what is left of the limit.",
-        vec![
-            Column::code("subject"),
-            Column::code("metric"),
-            Column::number("measured", "1"),
-            Column::number("limit", "1"),
-            Column::number("margin", "%"),
-            Column::verdict("verdict"),
-            Column::text("why"),
-        ],
-    );
-    for gate in gates {
-        let (measured, margin) = match &gate.measured {
-            Ok(value) => (
-                Cell::number(*value, 4),
-                Cell::number((gate.limit - value) / gate.limit * 100.0, 3),
-            ),
-            Err(reason) => (Cell::missing(reason.clone()), Cell::missing("nothing was measured")),
-        };
-        table.push(vec![
-            Cell::text(gate.subject.clone()),
-            Cell::text(gate.metric.clone()),
-            measured,
-            Cell::number(gate.limit, 4),
-            margin,
-            Cell::verdict(gate.verdict),
-            Cell::text(gate.why.clone()),
-        ]);
+    let (_, attention) = by_attention(gates);
+    let level = match attention.first().map(|gate| gate.verdict) {
+        Some(Verdict::Fail) => NoticeLevel::Failure,
+        Some(Verdict::Warn) => NoticeLevel::Warning,
+        Some(Verdict::NotMeasured) => NoticeLevel::NotMeasured,
+        Some(Verdict::Pass) | None => NoticeLevel::Info,
+    };
+    let section = section.notice(level, summary(gates));
+    if attention.is_empty() {
+        return section;
     }
-    section.block(table)
+    let caption = "Gates that failed, were not measured, or are close to their limit.";
+    section.block(table(caption, &attention))
+}
+
+/// The gates of a page: what needs attention, then all of them.
+pub(super) fn section(gates: &[&Judgement]) -> Section {
+    let section = attention_section("Gates", gates);
+    if gates.is_empty() {
+        return section;
+    }
+    section.block(table("Every budget of `fits/gates.toml` on what this page shows.", gates))
+}
+
+/// `2 gates: 2 passed, 0 of them with a warning, 0 not measured, 0 failed`.
+pub fn summary(gates: &[&Judgement]) -> String {
+    let count = |wanted| gates.iter().filter(|gate| gate.verdict == wanted).count();
+    let (passed, warned) = (count(Verdict::Pass), count(Verdict::Warn));
+    format!(
+        "{} gates: {} passed, {warned} of them with a warning, {} not measured, {} failed",
+        gates.len(),
+        passed + warned,
+        count(Verdict::NotMeasured),
+        count(Verdict::Fail),
+    )
+}
+
+/// A row per gate: verdict, what was measured of which limit and where, and why the gate is there.
+pub fn table(caption: &str, gates: &[&Judgement]) -> Table {
+    Table::over(caption, gates)
+        .column(Column::verdict("verdict"), |of| Cell::verdict(of.verdict))
+        .column(Column::code("subject"), |of| Cell::text(of.gate.subject.as_str()))
+        .column(Column::code("metric"), |of| {
+            Cell::text(format!("{} {}", of.gate.metric, of.gate.precision))
+        })
+        .column(Column::text("domain"), |of| {
+            Cell::text(of.gate.domain.as_ref().map_or("as fitted".to_owned(), ToString::to_string))
+        })
+        .column(Column::figures("measured"), |of| {
+            let why = of.reason.as_deref().unwrap_or_default();
+            Cell::number_or(of.measured.as_ref().map(|found| found.value), 5, why)
+        })
+        .column(Column::figures("limit"), |of| Cell::number(of.gate.limit, 5))
+        .column(Column::number("left", "%"), |of| {
+            of.margin().map_or_else(|| Cell::text(""), |left| Cell::number(100.0 * left, 3))
+        })
+        .column(Column::text("where"), |of| {
+            Cell::text(of.measured.as_ref().map_or_else(String::new, |found| match &of.reason {
+                Some(reason) => reason.clone(),
+                None => found.place(),
+            }))
+        })
+        .column(Column::text("why it is there"), |of| Cell::text(of.gate.why.as_str()))
+        .table()
 }

@@ -1,109 +1,62 @@
-//! The index: one row per effect, and the gates at a glance.
+//! The index: what needs attention, one row per effect, and the errors at a glance.
 
-use super::{Evidence, GateLine, bare, count};
-use crate::document::{Block, Cell, Column, NoticeLevel, Page, Section, Table, Verdict};
+use super::{Evidence, bare, gates};
+use crate::document::{Cell, Column, Page, Section, Table, Verdict};
+use crate::gate::Judgement;
 use crate::numeric::measured::Measured;
 
-/// The first page: what there is, how it stands.
-pub fn index_page(effects: &[Evidence<'_>], gates: &[GateLine]) -> Page {
-    let mut overview = Table::new(
-        "Effects.",
-        vec![
-            Column::text("effect"),
-            Column::number("candidates", "1"),
-            Column::number("fits", "1"),
-            Column::number("gates passed", "1"),
-            Column::number("gates", "1"),
-            Column::text("device"),
-        ],
-    );
-    for evidence in effects {
-        let fits: usize = evidence
-            .subjects
-            .iter()
-            .filter_map(|subject| Some(subject.fitted.as_ref()?.result.outcomes().len()))
-            .sum();
-        let passed = evidence
-            .gates
-            .iter()
-            .filter(|gate| matches!(gate.verdict, Verdict::Pass | Verdict::Warn))
-            .count();
-        overview.push(vec![
-            Cell::link(evidence.effect.title, format!("{}.html", evidence.effect.name)),
-            count(evidence.subjects.len()),
-            count(fits),
-            count(passed),
-            count(evidence.gates.len()),
-            match &evidence.costs.adapter {
-                Measured::Value(adapter) => Cell::text(adapter.to_string()),
-                Measured::NotMeasured(reason) => Cell::missing(reason.clone()),
-            },
-        ]);
-    }
-    let mut gate_section = Section::new("Gates that need attention");
-    let attention: Vec<&GateLine> =
-        gates.iter().filter(|gate| gate.verdict != Verdict::Pass).collect();
-    if attention.is_empty() {
-        gate_section = gate_section.block(Block::Notice {
-            level: NoticeLevel::Info,
-            text: format!("All {} gates pass.", gates.len()).into(),
-        });
-    } else {
-        let mut table = Table::new(
-            "Gates that failed, are close to their limit, or were not measured.",
-            vec![
-                Column::code("subject"),
-                Column::code("metric"),
-                Column::verdict("verdict"),
-                Column::text("why"),
-            ],
-        );
-        for gate in attention {
-            table.push(vec![
-                Cell::text(gate.subject.clone()),
-                Cell::text(gate.metric.clone()),
-                Cell::verdict(gate.verdict),
-                Cell::text(gate.why.clone()),
-            ]);
-        }
-        gate_section = gate_section.block(table);
-    }
+/// The first page: how it stands, what there is.
+pub fn index_page(effects: &[Evidence<'_>], gates: &[&Judgement]) -> Page {
     Page::new(
         "index",
         "striae: approximations, fitted and judged",
         "What was fitted to what, how wrong it is, what it costs, and which budget holds it.",
     )
-    .section(Section::new("Overview").block(overview))
-    .section(best_section(effects))
-    .section(gate_section)
+    .section(gates::attention_section("Gates that need attention", gates))
+    .section(Section::new("Overview").block(overview(effects)))
+    .section(Section::new("Errors at a glance").block(errors(effects)))
 }
 
-/// The fits with the smallest and the published error, side by side.
-fn best_section(effects: &[Evidence<'_>]) -> Section {
-    let mut table = Table::new(
+fn overview(effects: &[Evidence<'_>]) -> Table {
+    let passed = |gate: &&&Judgement| matches!(gate.verdict, Verdict::Pass | Verdict::Warn);
+    Table::over("Effects.", effects)
+        .column(Column::text("effect"), |of| {
+            Cell::link(of.effect.title, format!("{}.html", of.effect.name))
+        })
+        .column(Column::number("candidates", "1"), |of| Cell::count(of.subjects.len()))
+        .column(Column::number("fits", "1"), |of| {
+            let fitted = of.subjects.iter().filter_map(|subject| subject.fitted.as_ref());
+            Cell::count(fitted.map(|fitted| fitted.result.outcomes().len()).sum())
+        })
+        .column(Column::number("gates passed", "1"), |of| {
+            Cell::count(of.gates.iter().filter(passed).count())
+        })
+        .column(Column::number("gates", "1"), |of| Cell::count(of.gates.len()))
+        .column(Column::text("device"), |of| match &of.costs.adapter {
+            Measured::Value(adapter) => Cell::text(adapter.to_string()),
+            Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
+        })
+        .table()
+}
+
+/// The first error of every fit, beside its cost.
+fn errors(effects: &[Evidence<'_>]) -> Table {
+    let fits = effects.iter().flat_map(|of| {
+        of.study.candidates.iter().filter_map(move |fit| Some((of, fit, &fit.regions.first()?.1)))
+    });
+    Table::over(
         "Fits to references over the first region in which they are judged, in f32, by the error by \
          which forms are compared there. Cost: on the device, or on f32 lanes where no device was \
          measured.",
-        vec![
-            Column::text("effect"),
-            Column::code("fit"),
-            Column::text("error"),
-            Column::number("value", "1"),
-            Column::number("cost", "ns"),
-        ],
-    );
-    for evidence in effects {
-        for fit in &evidence.study.candidates {
-            let Some((_, accuracy)) = fit.regions.first() else { continue };
-            let cost = evidence.costs.forms.iter().find(|cost| cost.name == fit.name);
-            table.push(vec![
-                Cell::text(evidence.effect.title),
-                Cell::text(bare(&fit.name)),
-                Cell::text(accuracy.yardstick.words()),
-                Cell::number(accuracy.headline(), 3),
-                Cell::number_or(cost.map(|cost| cost.nanoseconds()), 3, "not timed"),
-            ]);
-        }
-    }
-    Section::new("Errors at a glance").block(table)
+        fits,
+    )
+    .column(Column::text("effect"), |(of, ..)| Cell::text(of.effect.title))
+    .column(Column::code("fit"), |(_, fit, _)| Cell::text(bare(&fit.name)))
+    .column(Column::text("error"), |(.., accuracy)| Cell::text(accuracy.yardstick.words()))
+    .column(Column::number("value", "1"), |(.., accuracy)| Cell::number(accuracy.headline(), 3))
+    .column(Column::number("cost", "ns"), |(of, fit, _)| {
+        let cost = of.costs.forms.iter().find(|cost| cost.name == fit.name);
+        Cell::number_or(cost.map(|cost| cost.nanoseconds()), 3, "not timed")
+    })
+    .table()
 }

@@ -1,8 +1,9 @@
 //! Scenes: reference and approximations as pictures, how they differ, what they cost.
 
-use super::{GateLine, count, gates};
+use super::gates;
 use crate::document::{Block, Cell, Column, Inline, NoticeLevel, Page, Picture, Section, Table};
 use crate::effect::Finding;
+use crate::gate::Judgement;
 use crate::numeric::measured::Measured;
 use crate::render::findings::findings;
 use crate::render::scene::ReferenceMethod;
@@ -22,7 +23,7 @@ pub struct SceneEvidence {
 ///
 /// # Errors
 /// If a picture cannot be written as PNG.
-pub fn scenes_page(scenes: &[SceneEvidence], gates: &[GateLine]) -> Result<Page, RenderError> {
+pub fn scenes_page(scenes: &[SceneEvidence], gates: &[&Judgement]) -> Result<Page, RenderError> {
     let mut page = Page::new(
         "scenes",
         "Scenes",
@@ -137,12 +138,12 @@ fn monte_carlo(rendered: &RenderedScene) -> Block {
     let test = rendered.monte_carlo_metrics.as_ref().and_then(|metrics| metrics.z_test.as_ref());
     let tested = |value: Option<f64>| Cell::number_or(value, 3, "no standard error");
     table.push(vec![
-        count(law.samples[0] as usize),
+        Cell::count(law.samples[0] as usize),
         Cell::number(law.rms[0], 3),
-        count(law.samples[1] as usize),
+        Cell::count(law.samples[1] as usize),
         Cell::number(law.rms[1], 3),
         Cell::number(law.exponent, 3),
-        test.map_or_else(|| tested(None), |test| count(test.cells)),
+        test.map_or_else(|| tested(None), |test| Cell::count(test.cells)),
         tested(test.map(|test| test.worst_z)),
         tested(test.map(|test| test.p)),
     ]);

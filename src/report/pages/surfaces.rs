@@ -1,12 +1,13 @@
 //! Surfaces under environments: pictures by rank, errors and times, and what the assumption
 //! n = ω_o = r_v costs.
 
-use super::{GateLine, gates};
+use super::gates;
 use crate::document::plot::{Axis, Plot, Series};
 use crate::document::{
     Block, Cell, Column, Figure, Inline, NoticeLevel, Page, Picture, Section, Table,
 };
 use crate::effect::Finding;
+use crate::gate::Judgement;
 use crate::numeric::measured::Measured;
 use crate::render::RenderError;
 use crate::render::sheet::{SURFACE_ERROR, surface_comparison};
@@ -29,7 +30,7 @@ pub struct SurfaceEvidence {
 /// If a picture cannot be written as PNG.
 pub fn surfaces_page(
     surfaces: &[SurfaceEvidence],
-    gates: &[GateLine],
+    gates: &[&Judgement],
 ) -> Result<Page, RenderError> {
     let mut page = Page::new(
         "surfaces",

@@ -9,7 +9,7 @@ use super::lettering;
 use super::scale::Span;
 use super::series::{Fineness, Look, Traced, frontier_line};
 use super::surface::{Lettering, Refused, Surface};
-use crate::document::plot::{Along, Plot, Series, SeriesStyle};
+use crate::document::plot::{Plot, Series, SeriesStyle};
 
 /// Size of tick labels, in pixels.
 pub(super) const TICK: f64 = 11.0;
@@ -39,19 +39,18 @@ impl Axes {
         let x = |wanted| {
             let points = plot.series.iter().flat_map(|s| s.points.iter().map(|p| p.0));
             let labels = plot.annotations.iter().map(|a| a.x);
-            let guides = plot.guides.iter().filter(|g| g.along == Along::Vertical).map(|g| g.at);
             // Labels beside the outermost points want room.
             let margin = match (plot.annotations.is_empty(), has_markers(plot)) {
                 (false, _) => 0.12,
                 (true, true) => 0.06,
                 (true, false) => 0.015,
             };
-            Span::new(&plot.x, points.chain(labels).chain(guides), margin, wanted)
+            Span::new(&plot.x, points.chain(labels), margin, wanted)
         };
         let y = {
             let points = plot.series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
             let labels = plot.annotations.iter().map(|a| a.y);
-            let guides = plot.guides.iter().filter(|g| g.along == Along::Horizontal).map(|g| g.at);
+            let guides = plot.guides.iter().map(|g| g.at);
             let margin = if has_markers(plot) { 0.08 } else { 0.05 };
             let values = points.chain(labels).chain(guides);
             Span::new(
@@ -220,14 +219,7 @@ impl<'a> Panel<'a> {
     fn draw_guides(&self, on: &Surface<'_>) -> Result<(), Refused> {
         let area = &self.frame.area;
         for guide in &self.plot.guides {
-            let ends = match guide.along {
-                Along::Horizontal => {
-                    self.frame.y_at(guide.at).map(|y| [(area.left, y), (area.right(), y)])
-                }
-                Along::Vertical => {
-                    self.frame.x_at(guide.at).map(|x| [(x, area.top), (x, area.bottom())])
-                }
-            };
+            let ends = self.frame.y_at(guide.at).map(|y| [(area.left, y), (area.right(), y)]);
             if let Some(ends) = ends.filter(|ends| self.frame.shows(ends[0])) {
                 on.line(&ends, Ink::Guide, 1.1, 0.8)?;
             }

@@ -123,7 +123,6 @@ impl Traced {
         }
         let lines = match series.style {
             SeriesStyle::Markers => Vec::new(),
-            SeriesStyle::StepFrontier => vec![frontier_line(&series.points, frame)],
             _ => runs.iter().flat_map(|run| clipped(run, frame)).collect(),
         };
         Self { name: series.name.clone(), look, lines, places, hidden }
