@@ -9,7 +9,7 @@ use serde_json::json;
 use super::Ending;
 use super::context::Context;
 use super::output::{significant, table};
-use crate::effect::exhibit::{ExhibitCell, ExhibitTable};
+use crate::document;
 use crate::effect::simulator::{Settings, Simulator};
 use crate::measured::spectra::Spectra;
 use crate::registry::{EFFECTS, simulator};
@@ -101,7 +101,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         let mut text = simulation.notes.join("\n");
         text.push('\n');
         for shown in &simulation.tables {
-            text.push_str(&format!("\n{}\n{}", shown.caption, as_text(shown)));
+            text.push_str(&format!("\n{}", document::text::table(shown)));
         }
         text
     })?;
@@ -133,22 +133,6 @@ fn list_settings(simulator: &Simulator, context: &Context) -> anyhow::Result<End
         .collect();
     context.output.result(&objects, || table(&header, rows))?;
     Ok(Ending::Done)
-}
-
-fn as_text(shown: &ExhibitTable) -> String {
-    let header: Vec<String> = shown
-        .columns
-        .iter()
-        .map(|(name, unit)| match *unit {
-            "" | "1" => name.clone(),
-            unit => format!("{name} [{unit}]"),
-        })
-        .collect();
-    let cell = |cell: &ExhibitCell| match cell {
-        ExhibitCell::Text(words) => words.clone(),
-        ExhibitCell::Number(value) => significant(*value, 4),
-    };
-    table(&header, shown.rows.iter().map(|row| row.iter().map(cell).collect()).collect())
 }
 
 /// A row per texel: h_x, h_y, and the channels.

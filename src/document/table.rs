@@ -21,6 +21,21 @@ impl Table {
         Self { caption: caption.into(), columns, rows: Vec::new() }
     }
 
+    /// A table of words and numbers: title and unit per column, an empty unit for words.
+    pub fn of_rows<T: Into<String>>(
+        caption: impl Into<Inline>,
+        columns: impl IntoIterator<Item = (T, &'static str)>,
+        rows: impl IntoIterator<Item = Vec<Cell>>,
+    ) -> Self {
+        let columns = columns.into_iter().map(|(title, unit)| match unit {
+            "" => Column::text(title),
+            unit => Column::number(title, unit),
+        });
+        let mut table = Self::new(caption, columns.collect());
+        rows.into_iter().for_each(|row| table.push(row));
+        table
+    }
+
     /// Rows, in order; each has one cell per column.
     #[must_use]
     pub fn rows(&self) -> &[Vec<Cell>] {

@@ -13,8 +13,7 @@ pub(crate) mod regions;
 pub mod sampling;
 pub mod study;
 
-use crate::effect::DomainError;
-use crate::effect::exhibit::ExhibitError;
+use crate::effect::{CandidateError, ClaimError, DomainError};
 use crate::form::FormError;
 use crate::gpu::GpuError;
 
@@ -49,7 +48,10 @@ pub enum ValidateError {
     },
     /// What the effect shows beyond its fits could not be made.
     #[error(transparent)]
-    Exhibit(#[from] ExhibitError),
+    Exhibit(#[from] ClaimError),
+    /// There is no candidate where one is needed.
+    #[error(transparent)]
+    Candidate(#[from] CandidateError),
     /// A form's file cannot be read.
     #[error("form `{name}` is not registered, and no readable file: {source}")]
     UnreadableForm {

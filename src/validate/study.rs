@@ -1,11 +1,13 @@
 //! A study of one effect: every fit of it on every region, its laws, its parity and its cost.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::effect::exhibit::Exhibit;
-use crate::effect::{Effect, Finding, FittedConstants, Member};
+use crate::document::Section;
+use crate::effect::claim::check;
+use crate::effect::{Candidate, Candidates, ConstantsOf, Effect, Finding, Member};
 use crate::fit::outcome::{FamilyOutcome, Outcome};
 use crate::form::Form;
 use crate::gpu::Device;
@@ -56,7 +58,7 @@ pub struct Study {
     /// Claims of papers, checked.
     pub findings: Vec<Finding>,
     /// What the effect shows beyond its fits.
-    pub exhibits: Vec<Exhibit>,
+    pub exhibits: Vec<Section>,
 }
 
 impl Shipped {
@@ -118,13 +120,14 @@ pub fn study(
     root: &Path,
     device: &Measured<Device>,
 ) -> Result<Study, ValidateError> {
+    let candidates = candidates(effect, singles, root)?;
     let mut found = Study {
         effect: effect.name.to_owned(),
         fits: Vec::new(),
         families: Vec::new(),
         laws: Vec::new(),
-        findings: (effect.findings)(&constants(singles)),
-        exhibits: (effect.exhibits)(&constants(singles))?,
+        findings: check(effect.claims, &candidates),
+        exhibits: (effect.exhibits)(&candidates)?,
     };
     let mut atlas = Atlas::new(effect);
     for outcome in singles {
@@ -153,11 +156,20 @@ pub fn study(
     Ok(found)
 }
 
-fn constants(singles: &[Outcome]) -> FittedConstants {
-    let of = |outcome: &Outcome| {
-        outcome.parameters.iter().map(|(name, constant)| (name.clone(), constant.value)).collect()
-    };
-    FittedConstants(singles.iter().map(|outcome| (outcome.name.clone(), of(outcome))).collect())
+/// The forms of `effect` with the constants of their text, and its fits with theirs.
+fn candidates(
+    effect: &Effect,
+    singles: &[Outcome],
+    root: &Path,
+) -> Result<Candidates, ValidateError> {
+    let fitted = singles.iter().map(|outcome| {
+        let Shipped { name, form, constants, constants_f32 } = Shipped::of(outcome, root)?;
+        let constants_of = ConstantsOf::Fit(name.clone());
+        Ok(Arc::new(Candidate { name, form, constants, constants_f32, constants_of }))
+    });
+    let fitted = fitted.collect::<Result<Vec<_>, ValidateError>>()?;
+    // Of one name the later counts.
+    Ok(effect.written()?.iter().cloned().chain(fitted).collect())
 }
 
 fn fit_study(
