@@ -9,7 +9,6 @@ use serde_json::json;
 use super::Ending;
 use super::context::Context;
 use crate::document::{self, Block, Cell, Section, number};
-use crate::effect::exhibit::{ExhibitCell, ExhibitTable};
 use crate::effect::simulator::{Settings, Simulator};
 use crate::measured::spectra::Spectra;
 use crate::render::image::Image;
@@ -98,7 +97,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     });
     context.output.sections(&result, || {
         let notes = simulation.notes.iter().map(|note| Block::Paragraph(note.as_str().into()));
-        let tables = simulation.tables.iter().map(|table| shown(table).into());
+        let tables = simulation.tables.iter().map(|table| table.clone().into());
         vec![Section { blocks: notes.chain(tables).collect(), ..Section::default() }]
     })?;
     Ok(Ending::Done)
@@ -118,20 +117,6 @@ fn list_settings(simulator: &Simulator, context: &Context) -> anyhow::Result<End
         vec![Section::default().block(table)]
     })?;
     Ok(Ending::Done)
-}
-
-fn shown(table: &ExhibitTable) -> document::Table {
-    let columns = table.columns.iter().map(|(title, unit)| match *unit {
-        "" => document::Column::text(title.as_str()),
-        "1" => document::Column::figures(title.as_str()),
-        unit => document::Column::number(title.as_str(), unit),
-    });
-    let cell = |cell: &ExhibitCell| match cell {
-        ExhibitCell::Text(words) => Cell::text(words.as_str()),
-        ExhibitCell::Number(value) => Cell::number(*value, 4),
-    };
-    document::Table::new(table.caption.as_str(), columns.collect())
-        .with_rows(table.rows.iter().map(|row| row.iter().map(cell).collect()))
 }
 
 /// The table in false brightness, and the value that is white.

@@ -196,6 +196,25 @@ impl Cell {
     }
 }
 
+impl From<&str> for Cell {
+    fn from(words: &str) -> Self {
+        Self::text(words)
+    }
+}
+
+impl From<String> for Cell {
+    fn from(words: String) -> Self {
+        Self::text(words)
+    }
+}
+
+/// Three significant digits: what an error or an energy is worth.
+impl From<f64> for Cell {
+    fn from(value: f64) -> Self {
+        Self::number(value, 3)
+    }
+}
+
 impl Serialize for Cell {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;

@@ -44,6 +44,19 @@ impl Table {
         self
     }
 
+    /// A table of words and numbers: title and unit per column, an empty unit for words.
+    pub fn of_rows<T: Into<String>>(
+        caption: impl Into<Inline>,
+        columns: impl IntoIterator<Item = (T, &'static str)>,
+        rows: impl IntoIterator<Item = Vec<Cell>>,
+    ) -> Self {
+        let columns = columns.into_iter().map(|(title, unit)| match unit {
+            "" => Column::text(title),
+            unit => Column::number(title, unit),
+        });
+        Self::new(caption, columns.collect()).with_rows(rows)
+    }
+
     /// Rows, in order; each has one cell per column.
     #[must_use]
     pub fn rows(&self) -> &[Vec<Cell>] {

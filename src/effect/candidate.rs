@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::form::{Form, FormError};
+use crate::table::Table;
 
 /// Where the constants of a candidate come from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -82,13 +83,19 @@ impl Candidate {
         Ok(Self { name: name.to_owned(), form, constants, constants_f32, constants_of })
     }
 
+    /// The names of the constants, and the f32 that ship, widened.
+    pub fn shipped(&self) -> impl Iterator<Item = (&str, f64)> {
+        let values = self.constants_f32.iter().map(|value| f64::from(*value));
+        self.form.parameters().iter().map(|parameter| parameter.name.as_str()).zip(values)
+    }
+
     /// Values of the first output in f64 arithmetic with the constants that ship; `inputs` as for
     /// [`Form::eval_f64`].
     ///
     /// # Errors
     /// As [`Form::eval_f64`].
     pub fn values(&self, inputs: &[&[f64]]) -> Result<Vec<f64>, FormError> {
-        let shipped: Vec<f64> = self.constants_f32.iter().map(|value| f64::from(*value)).collect();
+        let shipped: Vec<f64> = self.shipped().map(|(_, value)| value).collect();
         Ok(self.form.eval_f64(&shipped, inputs)?.swap_remove(0))
     }
 
@@ -99,6 +106,37 @@ impl Candidate {
     /// As [`Form::eval_f32`].
     pub fn values_f32(&self, inputs: &[&[f32]]) -> Result<Vec<f32>, FormError> {
         Ok(self.form.eval_f32(&self.constants_f32, inputs)?.swap_remove(0))
+    }
+
+    /// [`Candidate::values`] at the rows of a table that has a column for every input, by name.
+    ///
+    /// # Errors
+    /// [`FormError::Shape`] if a column is missing.
+    pub fn values_at(&self, points: &Table) -> Result<Vec<f64>, FormError> {
+        self.values(&self.inputs(points)?)
+    }
+
+    /// [`Candidate::values_f32`] at the rows of a table that has a column for every input, by name.
+    ///
+    /// # Errors
+    /// [`FormError::Shape`] if a column is missing.
+    pub fn values_f32_at(&self, points: &Table) -> Result<Vec<f32>, FormError> {
+        let inputs = self.inputs(points)?;
+        let rounded = |column: &&[f64]| column.iter().map(|v| *v as f32).collect::<Vec<f32>>();
+        let inputs: Vec<Vec<f32>> = inputs.iter().map(rounded).collect();
+        self.values_f32(&inputs.iter().map(Vec::as_slice).collect::<Vec<_>>())
+    }
+
+    fn inputs<'a>(&self, points: &'a Table) -> Result<Vec<&'a [f64]>, FormError> {
+        let of = |name: &String| {
+            let column = points.column(name).map(|column| column.values.as_slice());
+            column.ok_or_else(|| FormError::Shape {
+                origin: self.form.origin().into(),
+                function: self.name.clone(),
+                what: format!("{} has no column `{name}`", points.origin),
+            })
+        };
+        self.form.input_columns().iter().map(of).collect()
     }
 }
 

@@ -2,6 +2,13 @@
 
 use serde::Serialize;
 
+use super::{CandidateError, DomainError};
+use crate::form::FormError;
+use crate::measured::MeasuredError;
+
+/// The command that shows what a claim of an effect comes to, where there is no narrower one.
+pub const REPORT: &str = "striae report";
+
 /// What a paper prints, and how it is checked against evidence `E` (the candidates of an effect, a
 /// picture of a scene).
 #[derive(Debug)]
@@ -18,6 +25,14 @@ pub struct Claim<E> {
     pub check: fn(&E) -> Result<Found, ClaimError>,
 }
 
+impl<E> Clone for Claim<E> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<E> Copy for Claim<E> {}
+
 /// What a check finds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
@@ -27,15 +42,37 @@ pub struct Found {
     pub verdict: String,
 }
 
-/// Why a claim could not be checked.
+impl Found {
+    /// A finding in words, and the verdict.
+    pub fn new(found: impl Into<String>, verdict: impl Into<String>) -> Self {
+        Self { found: found.into(), verdict: verdict.into() }
+    }
+}
+
+/// Why a claim could not be checked, or an exhibit not made.
 #[derive(Debug, thiserror::Error)]
-#[error(transparent)]
-pub struct ClaimError(Box<dyn std::error::Error + Send + Sync>);
+pub enum ClaimError {
+    /// There is no such candidate.
+    #[error(transparent)]
+    Candidate(#[from] CandidateError),
+    /// A form does not evaluate.
+    #[error(transparent)]
+    Form(#[from] FormError),
+    /// A reference has no value at a point.
+    #[error(transparent)]
+    Domain(#[from] DomainError),
+    /// Measured data does not load.
+    #[error(transparent)]
+    Measured(#[from] MeasuredError),
+    /// What the effect or the scene itself could not compute.
+    #[error(transparent)]
+    Other(Box<dyn std::error::Error + Send + Sync>),
+}
 
 impl ClaimError {
     /// Wraps the error that kept the check from a number.
     pub fn new(error: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
-        Self(error.into())
+        Self::Other(error.into())
     }
 }
 

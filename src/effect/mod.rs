@@ -2,19 +2,19 @@
 
 pub mod candidate;
 pub mod claim;
-pub mod exhibit;
-pub mod fitted_form;
+pub mod points;
 pub mod simulator;
 pub mod values;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
+use crate::document::Section;
 use crate::form::{Form, FormError};
 use crate::table::Table;
 pub use candidate::{Candidate, CandidateError, Candidates, ConstantsOf};
 pub use claim::{Claim, ClaimError, Finding, Found};
-use exhibit::{Exhibit, ExhibitError};
 use simulator::Simulator;
 pub use values::{NoValue, ReferenceValues};
 
@@ -133,6 +133,19 @@ pub struct Region {
     pub yardstick: Yardstick,
 }
 
+impl Region {
+    /// What most regions share, for `..Region::EMPTY`: no points of its own to fit, no groups, and
+    /// the largest magnitude of the error as the yardstick.
+    pub const EMPTY: Self = Self {
+        name: "",
+        description: "",
+        points: Table::default,
+        fitted: None,
+        by: None,
+        yardstick: Yardstick::MaxAbs,
+    };
+}
+
 /// The error by which forms are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -177,9 +190,26 @@ pub struct Law {
     pub known_violations: &'static [(&'static str, &'static str)],
 }
 
-/// What a claim of a paper is checked with: fitted constants by fit name and parameter name.
-#[derive(Debug, Clone, Default)]
-pub struct FittedConstants(pub BTreeMap<String, BTreeMap<String, f64>>);
+impl Law {
+    /// What most laws share, for `..Law::EMPTY`: no tolerance, every form of the effect, and no known
+    /// violation. By itself it never holds.
+    pub const EMPTY: Self = Self {
+        name: "",
+        description: "",
+        violation: |_| f64::NAN,
+        tolerance: 0.0,
+        references: &[],
+        known_violations: &[],
+    };
+
+    /// The largest of `violations`, 0 if none is positive; infinite if there is none or one is not a
+    /// number, which no tolerance accepts.
+    pub fn worst(violations: impl IntoIterator<Item = f64>) -> f64 {
+        let larger = |worst: f64, v: f64| if v.is_nan() { f64::INFINITY } else { worst.max(v) };
+        let mut violations = violations.into_iter().peekable();
+        if violations.peek().is_none() { f64::INFINITY } else { violations.fold(0.0, larger) }
+    }
+}
 
 /// One table of a [`Family`]: what a form is fitted to under one set of conditions.
 #[derive(Debug, Clone)]
@@ -256,10 +286,23 @@ pub struct Effect {
     pub goals: &'static [Goal],
     /// The fits that ratios of cost refer to, one per reference: what renderers ship today.
     pub baselines: &'static [&'static str],
-    /// Claims of papers, checked.
-    pub findings: fn(&FittedConstants) -> Vec<Finding>,
-    /// What it shows beyond its fits.
-    pub exhibits: fn(&FittedConstants) -> Result<Vec<Exhibit>, ExhibitError>,
+    /// Claims of papers.
+    pub claims: &'static [Claim<Candidates>],
+    /// What it shows beyond its fits: figures of a paper, energies, errors against a parameter of the
+    /// scene. Every number is measured when the sections are made.
+    pub exhibits: fn(&Candidates) -> Result<Vec<Section>, ClaimError>,
+}
+
+impl Effect {
+    /// The forms whose text gives every constant a value, as candidates with those values.
+    ///
+    /// # Errors
+    /// [`CandidateError::Form`] if a text is not a form.
+    pub fn written(&self) -> Result<Candidates, CandidateError> {
+        let candidates = self.forms.iter().map(FormEntry::written);
+        let complete = candidates.filter(|c| !matches!(c, Err(CandidateError::NoConstant { .. })));
+        complete.map(|candidate| candidate.map(Arc::new)).collect()
+    }
 }
 
 impl Source {
@@ -294,5 +337,13 @@ impl FormEntry {
     /// [`FormError`] if the text is not a form.
     pub fn load(&self) -> Result<Form, FormError> {
         Form::parse(self.path, &self.source.text(), self.function)
+    }
+
+    /// The form with the constants of its text.
+    ///
+    /// # Errors
+    /// [`CandidateError`] if the text is not a form or leaves a constant without a value.
+    pub fn written(&self) -> Result<Candidate, CandidateError> {
+        Candidate::new(self.name, self.load()?, &BTreeMap::new(), ConstantsOf::Text)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::exhibit::ExhibitTable;
+use crate::document;
 use crate::measured::spectra::Spectra;
 use crate::table::Grid;
 
@@ -40,7 +40,7 @@ pub struct Simulation {
     /// What is said of it, one line each.
     pub notes: Vec<String>,
     /// Numbers: orders, energies, what each step changes.
-    pub tables: Vec<ExhibitTable>,
+    pub tables: Vec<document::Table>,
 }
 
 /// Why a simulation could not be made.

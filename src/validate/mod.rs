@@ -15,8 +15,7 @@ pub mod standing;
 pub mod study;
 pub mod timed;
 
-use crate::effect::DomainError;
-use crate::effect::exhibit::ExhibitError;
+use crate::effect::{CandidateError, ClaimError, DomainError};
 use crate::form::FormError;
 use crate::gpu::GpuError;
 use crate::project::ProjectError;
@@ -52,7 +51,10 @@ pub enum ValidateError {
     },
     /// What the effect shows beyond its fits could not be made.
     #[error(transparent)]
-    Exhibit(#[from] ExhibitError),
+    Exhibit(#[from] ClaimError),
+    /// There is no candidate where one is needed.
+    #[error(transparent)]
+    Candidate(#[from] CandidateError),
     /// A form returns another number of values than its reference.
     #[error("{form}: returns {got} values, its reference {expected}")]
     Outputs {

@@ -1,7 +1,8 @@
 //! A study of one effect: every candidate of it on every region, its laws, its parity and its cost.
 
-use crate::effect::exhibit::Exhibit;
-use crate::effect::{Candidate, Candidates, Effect, Finding, FittedConstants, Member, Reference};
+use crate::document::Section;
+use crate::effect::claim::check;
+use crate::effect::{Candidate, Candidates, Effect, Finding, Member, Reference};
 use crate::fit::outcome::Outcome;
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
@@ -59,7 +60,7 @@ pub struct Study {
     /// Claims of papers, checked.
     pub findings: Vec<Finding>,
     /// What the effect shows beyond its candidates.
-    pub exhibits: Vec<Exhibit>,
+    pub exhibits: Vec<Section>,
 }
 
 /// Studies `effect` with `subjects`, those of it.
@@ -83,8 +84,8 @@ pub fn study(
         candidates: Vec::new(),
         families: Vec::new(),
         laws: Vec::new(),
-        findings: (effect.findings)(&constants(candidates)),
-        exhibits: (effect.exhibits)(&constants(candidates))?,
+        findings: check(effect.claims, candidates),
+        exhibits: (effect.exhibits)(candidates)?,
     };
     for subject in subjects {
         let reference = match &subject.approximates {
@@ -111,15 +112,6 @@ pub fn study(
         found.families.push(FamilyStudy { family: family.name.to_owned(), forms, spreads });
     }
     Ok(found)
-}
-
-fn constants(candidates: &Candidates) -> FittedConstants {
-    let of = |candidate: &std::sync::Arc<Candidate>| {
-        let names = candidate.form.parameters().iter().map(|parameter| parameter.name.clone());
-        let values = names.zip(candidate.constants_f32.iter().map(|value| f64::from(*value)));
-        (candidate.name.clone(), values.collect())
-    };
-    FittedConstants(candidates.iter().map(of).collect())
 }
 
 /// The reference that the registered form of a subject approximates; empty for a form of the user's.

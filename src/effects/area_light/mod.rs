@@ -74,14 +74,10 @@ pub const EFFECT: Effect = Effect {
         "area_light/sphere_line_printed",
         "area_light/triangle_line_printed",
     ],
-    findings: |fitted| {
-        let mut all = band::findings(fitted);
-        all.extend(lights::findings(fitted));
-        all
-    },
-    exhibits: |fitted| {
-        let mut all = band::exhibits(fitted)?;
-        all.extend(lights::exhibits(fitted)?);
+    claims: &joined::<_, 5, 8, 13>(band::CLAIMS, lights::CLAIMS),
+    exhibits: |candidates| {
+        let mut all = band::exhibits(candidates)?;
+        all.extend(lights::exhibits(candidates)?);
         Ok(all)
     },
 };

@@ -17,9 +17,8 @@ pub(super) const LAWS: &[Law] = &[
         description: "a power is a share: largest excess above 1 or below 0 over phases up to a turn, \
                       0 to the bit",
         violation: |form| excess(form, 1.0),
-        tolerance: 0.0,
         references: ZERO,
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "share (one first order)",
@@ -40,7 +39,7 @@ pub(super) const LAWS: &[Law] = &[
         violation: |form| without_relief(form, 1.0),
         tolerance: 0.001,
         references: ZERO,
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "flat (one first order)",
@@ -48,7 +47,7 @@ pub(super) const LAWS: &[Law] = &[
         violation: |form| without_relief(form, 0.0),
         tolerance: 1e-8,
         references: FIRST,
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "goes out",

@@ -52,10 +52,10 @@
 //! grating), S_λ(h) = (λ₀/λ)² S_λ₀(h λ₀/λ). For a shallow relief |P|² ∝ k², so (λ₀/λ)⁴. In between no power
 //! holds: sin²(2πD/λ) of a disc has a maximum in the blue.
 
+mod claims;
 mod error;
 mod exhibits;
 mod far_field;
-mod findings;
 mod forms;
 mod illuminant;
 mod laws;
@@ -111,7 +111,7 @@ pub const EFFECT: Effect = Effect {
     laws: laws::LAWS,
     goals: &[],
     baselines: &["diffraction/zero_first_order", "diffraction/one_first_order"],
-    findings: findings::findings,
+    claims: claims::CLAIMS,
     exhibits: exhibits::exhibits,
 };
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use crate::effect::{Region, Yardstick};
+use crate::effect::{Region, points};
 use crate::table::{Column, Table};
 
 /// Phase of a disc's pits: k w D/2 for D = 120 nm at 450 nm, w = 2.
@@ -18,28 +18,22 @@ pub(super) const REGIONS: &[Region] = &[
         description: "Amplitudes of the phase up to a turn, past the second zero of J_0: reliefs up \
                       to half a wavelength at normal incidence. 2000 points between those of the \
                       fits, 1000 drawn uniformly, and the hard cases inside.",
-        points: || points(TAU, 2018),
-        fitted: None,
-        by: None,
-        yardstick: Yardstick::MaxAbs,
+        points: || up_to(TAU, 2018),
+        ..Region::EMPTY
     },
     Region {
         name: "discs",
         description: "Up to half the phase of a disc's pit in the blue, 1.676: 2000 points in equal \
                       steps, 1000 drawn uniformly.",
-        points: || points(DISC, 2019),
-        fitted: None,
-        by: None,
-        yardstick: Yardstick::MaxAbs,
+        points: || up_to(DISC, 2019),
+        ..Region::EMPTY
     },
     Region {
         name: "shallow",
         description: "Up to 0.3, a relief of 13 nm at 550 nm, where the first order is meant: 2000 \
                       points in equal steps, 1000 drawn uniformly.",
-        points: || points(0.3, 2020),
-        fitted: None,
-        by: None,
-        yardstick: Yardstick::MaxAbs,
+        points: || up_to(0.3, 2020),
+        ..Region::EMPTY
     },
 ];
 
@@ -49,9 +43,7 @@ pub(super) const HARD_CASES: Region = Region {
     description: "no relief, subnormal and tiny phases, zeros and extrema of J_0 and J_1 with their \
                   neighbours, and the turn",
     points: || table(hard_cases(), "hard cases"),
-    fitted: None,
-    by: None,
-    yardstick: Yardstick::MaxAbs,
+    ..Region::EMPTY
 };
 
 /// Zeros of J_0 and J_1 and their extrema up to a turn (DLMF §10.21), phases of a disc.
@@ -70,8 +62,7 @@ const SPECIAL: [f64; 8] = [
 pub(super) fn hard_cases() -> Vec<f64> {
     let mut phases: Vec<f32> = vec![0.0, 1e-45, 1e-30, f32::MIN_POSITIVE, 1e-10, 1e-4, 0.01];
     for phase in SPECIAL {
-        let phase = phase as f32;
-        phases.extend([phase.next_down(), phase, phase.next_up()]);
+        phases.extend(points::neighbours(phase));
     }
     // The f32 below a turn: beyond, forms stand still.
     let turn = TAU as f32;
@@ -79,7 +70,7 @@ pub(super) fn hard_cases() -> Vec<f64> {
     phases.into_iter().map(f64::from).collect()
 }
 
-fn points(to: f64, seed: u64) -> Table {
+fn up_to(to: f64, seed: u64) -> Table {
     let mut rng = ChaCha12Rng::seed_from_u64(seed);
     let mut phases: Vec<f64> = (0..2000).map(|i| to * (f64::from(i) + 0.5) / 2000.0).collect();
     phases.extend((0..1000).map(|_| rng.random_range(0.0..to)));
@@ -88,9 +79,6 @@ fn points(to: f64, seed: u64) -> Table {
 }
 
 fn table(phases: Vec<f64>, origin: &str) -> Table {
-    let phases = phases.into_iter().map(|v| f64::from(v as f32)).collect();
-    Table {
-        columns: vec![Column::new("phase", "rad", phases)],
-        origin: format!("{origin} of diffraction"),
-    }
+    let columns = vec![Column::new("phase", "rad", phases)];
+    points::rounded(Table { columns, origin: format!("{origin} of diffraction") })
 }

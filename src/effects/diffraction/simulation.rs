@@ -9,7 +9,7 @@ use super::preparation::{
 use super::simulate::{Origin, padding, preparation, shape, w};
 use super::steps::{Step, changes};
 use super::table::DiffractionTable;
-use crate::effect::exhibit::{ExhibitCell, ExhibitTable};
+use crate::document::{Cell, Table};
 use crate::effect::simulator::{Settings, Simulation};
 use crate::measured::height_map::HeightMap;
 
@@ -54,38 +54,31 @@ pub(super) fn described(
     Ok(Simulation { grid: table.grid, notes, tables })
 }
 
-fn number(value: f64) -> ExhibitCell {
-    ExhibitCell::Number(value)
+fn number(value: f64) -> Cell {
+    Cell::number(value, 4)
 }
 
 /// Shares of the power at the first, the middle and the last wavelength.
-fn energies(table: &DiffractionTable) -> ExhibitTable {
+fn energies(table: &DiffractionTable) -> Table {
     let last = table.wavelengths_nm.len().saturating_sub(1);
     let mut at = vec![0, last / 2, last];
     at.dedup();
-    let row = |i: usize| -> Option<Vec<ExhibitCell>> {
+    let row = |i: usize| -> Option<Vec<Cell>> {
         let (total, inside) = (*table.total.get(i)?, *table.inside.get(i)?);
-        let evanescent = *table.evanescent.get(i)?;
-        Some(vec![
-            number(*table.wavelengths_nm.get(i)?),
-            number(total),
-            number(inside),
-            number(total - inside),
-            number(evanescent),
-        ])
+        let (wavelength, evanescent) = (*table.wavelengths_nm.get(i)?, *table.evanescent.get(i)?);
+        Some([wavelength, total, inside, total - inside, evanescent].map(number).to_vec())
     };
-    let column = |name: &str, unit| (name.to_owned(), unit);
-    ExhibitTable {
-        caption: "Shares of the reflected power".into(),
-        columns: vec![
-            column("wavelength", "nm"),
-            column("sum over all frequencies", "1"),
-            column("inside the table", "1"),
-            column("outside", "1"),
-            column("beyond |h| = 1", "1"),
+    Table::of_rows(
+        "Shares of the reflected power",
+        [
+            ("wavelength", "nm"),
+            ("sum over all frequencies", "1"),
+            ("inside the table", "1"),
+            ("outside", "1"),
+            ("beyond |h| = 1", "1"),
         ],
-        rows: at.into_iter().filter_map(row).collect(),
-    }
+        at.into_iter().filter_map(row),
+    )
 }
 
 fn sampling(surface: &PreparedSurface, field: &FarField, size: usize, extent: f64) -> String {
@@ -128,7 +121,7 @@ fn order_table(
     frequency: [f64; 2],
     size: usize,
     extent: f64,
-) -> Result<(Vec<String>, ExhibitTable), DiffractionError> {
+) -> Result<(Vec<String>, Table), DiffractionError> {
     let mut notes = vec![format!(
         "pitch of the heights: {:.4} µm, at {:.2}° from x",
         1.0 / frequency[0].hypot(frequency[1]),
@@ -154,20 +147,13 @@ fn order_table(
     let found = orders(field, frequency, widths, MOST_ORDERS, size, extent);
     let mut rows = Vec::new();
     for order in &found {
-        let (power, uncertainty) = match sinusoid {
-            Some(a) => {
-                let phase = (phase_per_nm * a.nm).min(20.0);
-                predicted_power(
-                    order.order.unsigned_abs(),
-                    phase,
-                    phase_per_nm * a.standard_error_nm,
-                )
-                .map_or((f64::NAN, f64::NAN), |p| p)
-            }
-            None => (f64::NAN, f64::NAN),
-        };
-        let shown = |v: f64| {
-            if v.is_nan() { ExhibitCell::Text("–".into()) } else { number(v) }
+        let predicted = sinusoid.and_then(|a| {
+            let (phase, error) = (phase_per_nm * a.nm, phase_per_nm * a.standard_error_nm);
+            predicted_power(order.order.unsigned_abs(), phase.min(20.0), error).ok()
+        });
+        let [power, uncertainty] = match predicted {
+            Some((power, uncertainty)) => [number(power), number(uncertainty)],
+            None => ["–", "–"].map(Cell::text),
         };
         rows.push(vec![
             number(f64::from(order.order)),
@@ -176,27 +162,26 @@ fn order_table(
             number(order.found[0]),
             number(order.found[1]),
             number(order.texels_off),
-            shown(power),
-            shown(uncertainty),
+            power,
+            uncertainty,
             number(order.power),
         ]);
     }
-    let column = |name: &str, unit| (name.to_owned(), unit);
-    let table = ExhibitTable {
-        caption: format!("Orders at {} nm: m λ/d, and what the table has", field.wavelength_nm),
-        columns: vec![
-            column("m", "1"),
-            column("h_x predicted", "1"),
-            column("h_y predicted", "1"),
-            column("h_x found", "1"),
-            column("h_y found", "1"),
-            column("off", "texels"),
-            column("J_m²", "1"),
-            column("u(J_m²)", "1"),
-            column("power found", "1"),
+    let table = Table::of_rows(
+        format!("Orders at {} nm: m λ/d, and what the table has", field.wavelength_nm),
+        [
+            ("m", "1"),
+            ("h_x predicted", "1"),
+            ("h_y predicted", "1"),
+            ("h_x found", "1"),
+            ("h_y found", "1"),
+            ("off", "texels"),
+            ("J_m²", "1"),
+            ("u(J_m²)", "1"),
+            ("power found", "1"),
         ],
         rows,
-    };
+    );
     Ok((notes, table))
 }
 

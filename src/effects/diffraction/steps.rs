@@ -4,7 +4,7 @@ use super::DiffractionError;
 use super::far_field::{FarField, Transform};
 use super::preparation::{Preparation, prepared};
 use super::table::at_wavelength;
-use crate::effect::exhibit::{ExhibitCell, ExhibitTable};
+use crate::document::{Cell, Table};
 use crate::measured::height_map::HeightMap;
 
 /// Heights and their preparation, under a name.
@@ -99,43 +99,37 @@ fn strongest_order(field: &FarField, side_um: f64) -> ([f64; 2], f64) {
     ([x.centre(ix), y.centre(iy)], width * x.pitch)
 }
 
-/// [`step_effects`] as a table.
+/// [`step_effects`] as a table of four significant digits.
 pub(super) fn changes(
     steps: &[Step<'_>],
     wavelength_nm: f64,
     w: f64,
     size: usize,
     extent: f64,
-) -> Result<ExhibitTable, DiffractionError> {
+) -> Result<Table, DiffractionError> {
     let effects = step_effects(steps, wavelength_nm, w, size, extent)?;
-    let row = |(step, effect): (&Step<'_>, &StepEffect)| {
-        let mut row = vec![ExhibitCell::Text(step.name.into())];
-        let numbers = [
-            effect.relative_l2,
-            effect.strongest[0],
-            effect.strongest[1],
-            effect.width,
-            effect.total,
-            effect.inside,
-        ];
-        row.extend(numbers.map(ExhibitCell::Number));
+    let rows = steps.iter().zip(&effects).map(|(step, effect)| {
+        let [along_x, along_y] = effect.strongest;
+        let difference = effect.relative_l2;
+        let numbers = [difference, along_x, along_y, effect.width, effect.total, effect.inside];
+        let mut row = vec![Cell::text(step.name)];
+        row.extend(numbers.map(|value| Cell::number(value, 4)));
         row
-    };
-    let column = |name: &str, unit| (name.to_owned(), unit);
-    Ok(ExhibitTable {
-        caption: format!(
+    });
+    Ok(Table::of_rows(
+        format!(
             "What each step does to the table at {wavelength_nm} nm: relative L2 difference from the \
              first row, and the strongest order with its width at half height"
         ),
-        columns: vec![
-            column("step", ""),
-            column("difference", "1"),
-            column("h_x of the order", "1"),
-            column("h_y", "1"),
-            column("width", "1"),
-            column("total power", "1"),
-            column("inside the table", "1"),
+        [
+            ("step", ""),
+            ("difference", "1"),
+            ("h_x of the order", "1"),
+            ("h_y", "1"),
+            ("width", "1"),
+            ("total power", "1"),
+            ("inside the table", "1"),
         ],
-        rows: steps.iter().zip(&effects).map(row).collect(),
-    })
+        rows,
+    ))
 }

@@ -1,6 +1,6 @@
 //! Points that have broken implementations.
 
-use crate::effect::{Region, Yardstick};
+use crate::effect::{Region, points};
 use crate::table::Table;
 
 use super::pixels::Footprint;
@@ -14,18 +14,14 @@ pub(super) const HARD_CASES: &[Region] = &[
                       circles, and ellipses tilted by 60 and 89 degrees that are thin across the \
                       scratch and large in area",
         points: infinite,
-        fitted: None,
-        by: None,
-        yardstick: Yardstick::MaxAbs,
+        ..Region::EMPTY
     },
     Region {
         name: "hard ends",
         description: "ends on the rim, at the centre, far away on both sides; chords of no length \
                       and of 1000 sigma, tilts to 89 degrees",
         points: ends,
-        fitted: None,
-        by: None,
-        yardstick: Yardstick::MaxAbs,
+        ..Region::EMPTY
     },
 ];
 
@@ -37,9 +33,8 @@ pub(super) const HALF_EXTENTS: [f64; 20] = [
 
 /// Offsets that are hard for `h`.
 pub(super) fn offsets(h: f64) -> Vec<f64> {
-    let rim = h as f32;
     let mut offsets = vec![0.0, 1e-30, 1e-6, 0.3 * h, 0.5 * h, 0.9 * h, 0.99 * h];
-    offsets.extend([rim.next_down(), rim, rim.next_up()].map(f64::from).map(f64::abs));
+    offsets.extend(points::neighbours(h).map(f64::from).map(f64::abs));
     offsets.extend([1e-3, 0.1, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 15.0, 30.0, 1e3, 1e6].map(|d| h + d));
     offsets
 }

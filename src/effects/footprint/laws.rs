@@ -13,9 +13,8 @@ pub(super) const LAWS: &[Law] = &[
         description: "the mean depends on |s|: largest |g(h, s) - g(h, -s)| over the hard cases, \
                       0 to the bit",
         violation: oddness,
-        tolerance: 0.0,
         references: INFINITE,
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "range",
@@ -42,7 +41,7 @@ pub(super) const LAWS: &[Law] = &[
         violation: largest_rise,
         tolerance: 5e-7,
         references: INFINITE,
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "point footprint",
@@ -107,13 +106,6 @@ fn values(form: FormValues<'_>, h: &[f32], s: &[f32]) -> Vec<Vec<f32>> {
     }
 }
 
-/// Largest `violation`, 0 if none is positive; infinite if a value is not a number or there is none.
-fn worst(violations: impl IntoIterator<Item = f64>) -> f64 {
-    let largest = |worst: f64, v: f64| if v.is_nan() { f64::INFINITY } else { worst.max(v) };
-    let mut violations = violations.into_iter().peekable();
-    if violations.peek().is_none() { f64::INFINITY } else { violations.fold(0.0, largest) }
-}
-
 fn hard_points() -> (Vec<f32>, Vec<f32>) {
     let pairs = HALF_EXTENTS.iter().flat_map(|&h| offsets(h).into_iter().map(move |s| (h, s)));
     pairs.map(|(h, s)| (h as f32, s as f32)).unzip()
@@ -124,7 +116,7 @@ fn oddness(form: FormValues<'_>) -> f64 {
     let mirrored: Vec<f32> = s.iter().map(|s| -s).collect();
     let (here, there) = (values(form, &h, &s), values(form, &h, &mirrored));
     let difference = |(a, b): (&f32, &f32)| f64::from((a - b).abs());
-    worst(here.iter().flatten().zip(there.iter().flatten()).map(difference))
+    Law::worst(here.iter().flatten().zip(there.iter().flatten()).map(difference))
 }
 
 fn excess(form: FormValues<'_>) -> f64 {
@@ -133,52 +125,48 @@ fn excess(form: FormValues<'_>) -> f64 {
     h.extend((0..=600).map(|i| 0.01 * 10_f32.powf(i as f32 / 120.0)));
     s.resize(h.len(), 0.0);
     let found = values(form, &h, &s);
-    worst(found.iter().flatten().map(|&v| f64::from(v - 1.0).max(f64::from(-v))))
+    Law::worst(found.iter().flatten().map(|&v| f64::from(v - 1.0).max(f64::from(-v))))
 }
 
 fn largest_rise(form: FormValues<'_>) -> f64 {
     const STEPS: usize = 400;
-    let mut worst_of_all = Vec::new();
-    for h in HALF_EXTENTS {
+    Law::worst(HALF_EXTENTS.into_iter().flat_map(|h| {
         let s: Vec<f32> =
             (0..=STEPS).map(|i| ((h + 6.0) * i as f64 / STEPS as f64) as f32).collect();
-        for found in values(form, &vec![h as f32; s.len()], &s) {
-            worst_of_all
-                .push(worst(found.windows(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0]))));
-        }
-    }
-    worst(worst_of_all)
+        let rise = |pair: &[f32]| f64::from(pair[1]) - f64::from(pair[0]);
+        let found = values(form, &vec![h as f32; s.len()], &s);
+        found.into_iter().map(|f| Law::worst(f.windows(2).map(rise))).collect::<Vec<_>>()
+    }))
 }
 
 /// Largest |g(h, s) − exp(−`rate` s²)| at tiny h.
 fn point_footprint(form: FormValues<'_>, rate: f64) -> f64 {
-    let s: Vec<f32> = (0..=100).map(|i| 0.05 * i as f32).collect();
-    let differences = [0.0_f32, 1e-3].into_iter().flat_map(|h| {
-        let found = values(form, &vec![h; s.len()], &s);
-        let difference = |(v, s): (f32, f32)| {
-            let s = f64::from(s);
-            (f64::from(v) - core_math::exp(-rate * s * s)).abs()
-        };
-        let all = found.into_iter().flat_map(|f| f.into_iter().zip(s.clone()).map(difference));
-        all.collect::<Vec<_>>()
-    });
-    worst(differences)
+    let s = |_| (0..=100).map(|i| 0.05 * i as f32).collect();
+    largest(form, [0.0, 1e-3], s, |v, _, s| (v - core_math::exp(-rate * s * s)).abs())
 }
 
 /// Largest |g(h, s)/(`centre`/h √(1 − s²/h²)) − 1| at large h.
 fn large_footprint(form: FormValues<'_>, centre: f64) -> f64 {
-    let differences = [1000.0_f32, 5000.0].into_iter().flat_map(|h| {
-        let s: Vec<f32> = (0..=90).map(|i| 0.01 * i as f32 * h).collect();
+    let s = |h| (0..=90).map(|i| 0.01 * i as f32 * h).collect();
+    largest(form, [1000.0, 5000.0], s, |v, h, s| {
+        let limit = centre * ((h - s) * (h + s)).sqrt() / (h * h);
+        (v / limit - 1.0).abs()
+    })
+}
+
+/// Largest `difference` of g(h, s), h and s over the offsets of two half-extents.
+fn largest(
+    form: FormValues<'_>,
+    half_extents: [f32; 2],
+    offsets: fn(f32) -> Vec<f32>,
+    difference: impl Fn(f64, f64, f64) -> f64,
+) -> f64 {
+    Law::worst(half_extents.into_iter().flat_map(|h| {
+        let s = offsets(h);
         let found = values(form, &vec![h; s.len()], &s);
-        let difference = |(v, s): (f32, f32)| {
-            let (h, s) = (f64::from(h), f64::from(s));
-            let limit = centre * ((h - s) * (h + s)).sqrt() / (h * h);
-            (f64::from(v) / limit - 1.0).abs()
-        };
-        let all = found.into_iter().flat_map(|f| f.into_iter().zip(s.clone()).map(difference));
-        all.collect::<Vec<_>>()
-    });
-    worst(differences)
+        let all = found.iter().flat_map(|found| found.iter().zip(&s));
+        all.map(|(&v, &s)| difference(v.into(), h.into(), s.into())).collect::<Vec<_>>()
+    }))
 }
 
 #[cfg(test)]

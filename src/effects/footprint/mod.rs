@@ -43,13 +43,13 @@
 //! and c the relative L2 error over s stays below 0.6 % for every h; the forms make a, b and c
 //! rational in h over powers of one cubic, with the large limit built in, for one division.
 
-mod approximation;
+mod claims;
 mod end;
 mod exhibits;
-mod findings;
 mod forms;
 mod hard_cases;
 mod laws;
+mod line;
 mod pixels;
 mod reference;
 mod regions;
@@ -92,7 +92,7 @@ pub const EFFECT: Effect = Effect {
         },
     ],
     baselines: &["footprint/eq16", "footprint/coverage_blend_area", "footprint/end_contained"],
-    findings: findings::findings,
+    claims: claims::CLAIMS,
     exhibits: exhibits::exhibits,
 };
 

@@ -6,8 +6,9 @@
 //! footprint, so that every footprint counts alike; for the coverage they are the same to a factor
 //! between 1 and √2.
 
-use crate::effect::{Region, Yardstick};
-use crate::table::{Column, Table};
+use crate::effect::{Region, Yardstick, points};
+use crate::numeric::statistics::sum;
+use crate::table::Table;
 
 use super::end::{ScratchEnd, response_at_end};
 use super::pixels::{Camera, Footprint};
@@ -128,13 +129,9 @@ fn ends(footprints: usize, count: u32, seed: u64) -> Table {
                 }
             })
             .collect();
-        let values = scratches.iter().map(|&scratch| response_at_end(scratch).unwrap_or(f64::NAN));
-        let weight = weight(values);
-        rows.extend(
-            scratches
-                .iter()
-                .map(|e| [e.half_extent, e.half_length, e.shear, e.offset, e.end, weight]),
-        );
+        let weight = weight(scratches.iter().map(|&e| response_at_end(e).unwrap_or(f64::NAN)));
+        let row = |e: &ScratchEnd| [e.half_extent, e.half_length, e.shear, e.offset, e.end, weight];
+        rows.extend(scratches.iter().map(row));
     }
     let names = ["half_extent", "half_length", "shear", "offset", "end", "weight"];
     table(names, &rows, "scratches that end, seeded draws")
@@ -142,18 +139,12 @@ fn ends(footprints: usize, count: u32, seed: u64) -> Table {
 
 /// 1 / Σ values².
 fn weight(values: impl Iterator<Item = f64>) -> f64 {
-    1.0 / crate::numeric::statistics::sum(values.map(|v| v * v))
+    1.0 / sum(values.map(|v| v * v))
 }
 
 /// A table of pure numbers.
 pub(super) fn table<const N: usize>(names: [&str; N], rows: &[[f64; N]], origin: &str) -> Table {
-    let column = |(at, name): (usize, &str)| {
-        Column::new(name, "1", rows.iter().map(|row| row[at]).collect())
-    };
-    Table {
-        columns: names.into_iter().enumerate().map(column).collect(),
-        origin: format!("{origin} of footprint"),
-    }
+    points::of_rows(names.map(|name| (name, "1")), rows, format!("{origin} of footprint"))
 }
 
 #[cfg(test)]
@@ -165,8 +156,8 @@ mod tests {
         for region in REGIONS {
             let (points, fitted) = ((region.points)(), (region.fitted.expect("points to fit"))());
             for table in [&points, &fitted] {
-                let finite = |column: &Column| column.values.iter().all(|v| v.is_finite());
-                assert!(table.columns.iter().all(finite), "{}", region.name);
+                let mut values = table.columns.iter().flat_map(|column| &column.values);
+                assert!(values.all(|v| v.is_finite()), "{}", region.name);
             }
             assert_ne!(points, fitted, "{}", region.name);
         }

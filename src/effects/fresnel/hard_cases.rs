@@ -1,7 +1,7 @@
 //! Points that break careless implementations.
 
-use crate::effect::{Region, Yardstick};
-use crate::table::{Column, Table};
+use crate::effect::{Region, points};
+use crate::table::Table;
 
 /// The hard cases, as registered.
 pub(super) const HARD_CASES: Region = Region {
@@ -9,9 +9,7 @@ pub(super) const HARD_CASES: Region = Region {
     description: "interfaces whose curves are hardest, at grazing and normal incidence and about \
                   their Brewster angles",
     points: table,
-    fitted: None,
-    by: None,
-    yardstick: Yardstick::MaxAbs,
+    ..Region::EMPTY
 };
 
 /// Interfaces whose curves are hardest: index n and k.
@@ -36,24 +34,15 @@ const INTERFACES: [(f64, f64); 9] = [
 /// angle. Columns `mu`, `n`, `k`, and `eta`, which is n: the absorbing ones enter as dielectrics
 /// too.
 fn table() -> Table {
-    let mut points: Vec<[f64; 4]> = Vec::new();
+    let mut rows: Vec<[f64; 4]> = Vec::new();
     for (n, k) in INTERFACES {
         // Where Re(mu^2 (m^2 + 1)) = 1 for k = 0; near the minimum of R_p otherwise.
         let brewster = 1.0 / (1.0 + n.mul_add(n, k * k)).sqrt();
         let critical = ((1.0 - n) * (1.0 + n)).max(0.0).sqrt();
         for mu in [0.0, 1e-8, 1e-4, 0.01, brewster, critical, 0.5, 1.0 - f64::EPSILON / 2.0, 1.0] {
-            points.push([mu, n, k, n]);
+            rows.push([mu, n, k, n]);
         }
     }
-    let columns = ["mu", "n", "k", "eta"]
-        .into_iter()
-        .enumerate()
-        .map(|(at, name)| Column {
-            name: name.into(),
-            unit: "1".into(),
-            values: points.iter().map(|point| point[at]).collect(),
-            uncertainty: None,
-        })
-        .collect();
-    Table { columns, origin: "hard cases of fresnel".into() }
+    let columns = ["mu", "n", "k", "eta"].map(|name| (name, "1"));
+    points::of_rows(columns, &rows, "hard cases of fresnel".into())
 }

@@ -2,9 +2,7 @@
 //!
 //! Monotonicity is not among them: a metal reflects less at its pseudo-Brewster angle than head-on.
 
-use crate::effect::Law;
-
-type Evaluate<'a> = &'a dyn Fn(&[Vec<f32>]) -> Vec<f32>;
+use crate::effect::{FormValues, Law};
 
 /// Two units in the last place of 1: what rounding the last sum may cost.
 const ROUNDING: f64 = 2.4e-7;
@@ -19,8 +17,7 @@ pub(super) const LAWS: &[Law] = &[
                       last place for the final sum",
         violation: |form| worst(form, &[0.0], &F_NORMAL, |_, _, value| (value - 1.0).abs()),
         tolerance: ROUNDING,
-        references: &[],
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "given at normal incidence",
@@ -28,13 +25,13 @@ pub(super) const LAWS: &[Law] = &[
                       the last place for the final sum",
         violation: |form| worst(form, &[1.0], &F_NORMAL, |_, f, value| (value - f).abs()),
         tolerance: ROUNDING,
-        references: &[],
         known_violations: &[
             ("fresnel/spherical_gaussian", "2^(a - b) of the way to 1 is left: 1.7e-4 as printed"),
             ("fresnel/spherical_gaussian_weight", "2^(a - b) is left: 1.7e-4 as printed"),
             ("fresnel/gulbrandsen", "r is clamped to 0.99: 0.01 is lost at 1"),
             ("fresnel/gulbrandsen_exact", "r is clamped to 0.99: 0.01 is lost at 1"),
         ],
+        ..Law::EMPTY
     },
     Law {
         name: "between 0 and 1",
@@ -46,7 +43,6 @@ pub(super) const LAWS: &[Law] = &[
             worst(form, &mu, &F_NORMAL[4..], |_, _, value| (-value).max(value - 1.0))
         },
         tolerance: ROUNDING,
-        references: &[],
         known_violations: &[
             ("fresnel/lazanyi", "the error term does not shrink with 1 - F0: a < 0 adds to 1"),
             ("fresnel/f_tint", "the error term does not shrink with 1 - F0: tint > 1 adds to 1"),
@@ -54,6 +50,7 @@ pub(super) const LAWS: &[Law] = &[
             ("fresnel/rational", "a > b, as fitted to gold in R, whose F0 is above 1"),
             ("fresnel/rational_tied", "a > b, as fitted to gold in R, whose F0 is above 1"),
         ],
+        ..Law::EMPTY
     },
     Law {
         name: "flat at normal incidence",
@@ -65,38 +62,28 @@ pub(super) const LAWS: &[Law] = &[
             let head_on = answers(form, &[1.0], &F_NORMAL);
             let beside = answers(form, &[1.0 - step], &F_NORMAL);
             let slopes = head_on.iter().zip(&beside).map(|(a, b)| f64::from(a.2 - b.2).abs());
-            largest(slopes) / f64::from(step)
+            Law::worst(slopes) / f64::from(step)
         },
         tolerance: 0.04,
-        references: &[],
         known_violations: &[
             ("fresnel/schlick_exponent", "a power near 1, as fitted to gold in R: slope 1.1"),
             ("fresnel/spherical_gaussian", "slope 2^(a - b) (2a - b) ln 2: 0.06 for gold in R"),
         ],
+        ..Law::EMPTY
     },
 ];
 
 /// Largest of `excess(mu, f_normal, value)` over all pairs, and 0.
 fn worst(
-    form: Evaluate<'_>,
+    form: FormValues<'_>,
     mu: &[f32],
     f_normal: &[f32],
     excess: fn(f64, f64, f64) -> f64,
 ) -> f64 {
-    largest(
+    Law::worst(
         answers(form, mu, f_normal)
             .into_iter()
             .map(|(mu, f, value)| excess(f64::from(mu), f64::from(f), f64::from(value))),
-    )
-}
-
-/// The largest, and 0; infinite if one is not a number, which no law may pass over.
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(
-        0.0,
-        |worst, value| {
-            if value.is_nan() { f64::INFINITY } else { f64::max(worst, value) }
-        },
     )
 }
 
@@ -105,23 +92,21 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
 /// Forms of this effect take mu and f_normal; some also the reflectance at the edge, and a weight
 /// takes mu alone, which is the same as f_normal = 0. An evaluator answers the wrong number of
 /// columns with nothing but NaN, so the three are tried in turn.
-fn answers(form: Evaluate<'_>, mu: &[f32], f_normal: &[f32]) -> Vec<(f32, f32, f32)> {
+fn answers(form: FormValues<'_>, mu: &[f32], f_normal: &[f32]) -> Vec<(f32, f32, f32)> {
     let pairs = |f_normal: &[f32]| -> Vec<(f32, f32)> {
         f_normal.iter().flat_map(|f| mu.iter().map(move |mu| (*mu, *f))).collect()
     };
-    let with_f = pairs(f_normal);
-    let column = |part: fn(&(f32, f32)) -> f32, pairs: &[(f32, f32)]| -> Vec<f32> {
+    let column = |pairs: &[(f32, f32)], part: fn(&(f32, f32)) -> f32| -> Vec<f32> {
         pairs.iter().map(part).collect()
     };
-    let cosines = column(|pair| pair.0, &with_f);
-    let normals = column(|pair| pair.1, &with_f);
-    let edges = column(|pair| pair.1 + (1.0 - pair.1) * 0.4, &with_f);
-    let alone = pairs(&[0.0]);
-
+    let (with_f, alone) = (pairs(f_normal), pairs(&[0.0]));
+    let cosines = column(&with_f, |pair| pair.0);
+    let normals = column(&with_f, |pair| pair.1);
+    let edges = column(&with_f, |pair| pair.1 + (1.0 - pair.1) * 0.4);
     for (pairs, inputs) in [
         (&with_f, vec![cosines.clone(), normals.clone()]),
         (&with_f, vec![cosines, normals, edges]),
-        (&alone, vec![column(|pair| pair.0, &alone)]),
+        (&alone, vec![column(&alone, |pair| pair.0)]),
     ] {
         let values = form(&inputs);
         if values.iter().any(|value| !value.is_nan()) {

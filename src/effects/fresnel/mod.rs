@@ -34,14 +34,14 @@
 //! the fitted constants of all materials keep close to a linear one, c = 11/4 b − 2a − 3, and
 //! `rational_tied` makes use of that.
 
-mod findings;
+mod claims;
 mod forms;
 mod hard_cases;
 mod laws;
 pub mod materials;
 pub mod reference;
 
-use crate::effect::{DomainError, Effect, Evaluate, Quantity, Reference, Region, Yardstick};
+use crate::effect::{DomainError, Effect, Evaluate, Quantity, Reference, Region};
 use crate::table::{Column, Table};
 
 /// The effect, as registered.
@@ -60,7 +60,7 @@ pub const EFFECT: Effect = Effect {
     laws: laws::LAWS,
     goals: &[],
     baselines: &["fresnel/schlick"],
-    findings: findings::findings,
+    claims: claims::CLAIMS,
     exhibits: |_| Ok(Vec::new()),
 };
 
@@ -127,10 +127,8 @@ const ALL_ANGLES: Region = Region {
         let even = (0..1000).map(|i| (f64::from(i) + 0.5) / 1000.0);
         let grazing = (0..=12).map(|i| 10f64.powf(-4.0 + f64::from(i) / 4.0));
         let mu = even.chain(grazing).chain([0.0, 1.0]).collect();
-        let column = Column { name: "mu".into(), unit: "1".into(), values: mu, uncertainty: None };
-        Table { columns: vec![column], origin: "region [0, 1] of fresnel".into() }
+        let columns = vec![Column::new("mu", "1", mu)];
+        Table { columns, origin: "region [0, 1] of fresnel".into() }
     },
-    fitted: None,
-    by: None,
-    yardstick: Yardstick::MaxAbs,
+    ..Region::EMPTY
 };

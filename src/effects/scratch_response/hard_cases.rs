@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::regions::{Row, table};
-use crate::effect::{Region, Yardstick};
+use crate::effect::Region;
 
 /// The hard cases, as registered.
 pub(super) const HARD_CASES: Region = Region {
@@ -12,9 +12,7 @@ pub(super) const HARD_CASES: Region = Region {
                   of the sinc, an end at the shaded point, scratches of 1e-4 and 1e4 sigma, one wholly \
                   outside the coherence area, sigma of 0.1 um and 10 mm, parallel and crossed pairs",
     points: || table(&rows(), |_| true, "hard cases"),
-    fitted: None,
-    by: None,
-    yardstick: Yardstick::MaxAbs,
+    ..Region::EMPTY
 };
 
 /// The rows of the table, every column among them.
@@ -43,24 +41,11 @@ fn directions([width, depth, wavelength, sigma]: [f64; 4], index: usize) -> Vec<
     let unit = wavelength / (2.0 * PI * sigma);
     let turn = [0.0, 1e-4, PI / 2.0, PI][index % 4];
     let at = |along: f64, across: f64, offset: f64, mu_sum: f64| -> Row {
-        let second = [width * 0.5 + 0.1, depth + 0.1, -offset, turn];
-        [
-            width,
-            depth,
-            wavelength,
-            sigma,
-            along,
-            across,
-            offset,
-            mu_sum,
-            begin,
-            end,
-            0.5 * mu_sum,
-            second[0],
-            second[1],
-            second[2],
-            second[3],
-        ]
+        let mut row = [0.0; 15];
+        row[..4].copy_from_slice(&[width, depth, wavelength, sigma]);
+        row[4..11].copy_from_slice(&[along, across, offset, mu_sum, begin, end, 0.5 * mu_sum]);
+        row[11..].copy_from_slice(&[width * 0.5 + 0.1, depth + 0.1, -offset, turn]);
+        row
     };
     vec![
         at(0.0, 0.0, 0.0, 2.0),

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::hard_cases;
 use super::regions::Row;
 use crate::effect::{FormValues, Law};
-use crate::numeric::statistics::largest;
+use crate::numeric::statistics::{largest, sum};
 
 const SINGLE: &[&str] = &["scratch_reflectance", "scratched_mirror_reflectance"];
 
@@ -21,7 +21,6 @@ pub(super) const LAWS: &[Law] = &[
         name: "non-negative",
         description: "Finite and never negative: largest magnitude of a negative value over the hard cases.",
         violation: |form| worst(values(form, &hard_cases::rows()).iter().map(|v| -f64::from(*v))),
-        tolerance: 0.0,
         references: SINGLE,
         known_violations: &[
             ("scratch_response/published_mirror", WIDE),
@@ -30,6 +29,7 @@ pub(super) const LAWS: &[Law] = &[
             ("scratch_response/matched_mirror", WIDE),
             ("scratch_response/energy_blend", WIDE),
         ],
+        ..Law::EMPTY
     },
     Law {
         name: "non-negative pair",
@@ -37,9 +37,8 @@ pub(super) const LAWS: &[Law] = &[
         violation: |form| {
             worst(form(&columns(&hard_cases::rows(), &PAIR)).iter().map(|v| -f64::from(*v)))
         },
-        tolerance: 0.0,
         references: &["scratch_pair_reflectance"],
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "non-negative density",
@@ -50,18 +49,16 @@ pub(super) const LAWS: &[Law] = &[
             let values = first_defined([of(&DENSITY[..3]), of(&DENSITY)]);
             worst(values.iter().map(|v| -f64::from(*v)))
         },
-        tolerance: 0.0,
         references: &["scratch_density"],
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "even across",
         description: "For a scratch through the shaded point xi_2 and -xi_2 give the same value to the bit: \
                       largest difference over the hard cases.",
         violation: asymmetry,
-        tolerance: 0.0,
         references: SINGLE,
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "energy",
@@ -104,21 +101,10 @@ fn first_defined<const N: usize>(candidates: [Vec<f32>; N]) -> Vec<f32> {
 }
 
 fn asymmetry(form: FormValues) -> f64 {
-    let central: Vec<Row> = hard_cases::rows()
-        .into_iter()
-        .map(|mut row| {
-            row[6] = 0.0;
-            row
-        })
-        .collect();
-    let mirrored: Vec<Row> = central
-        .iter()
-        .map(|row| {
-            let mut row = *row;
-            row[5] = -row[5];
-            row
-        })
-        .collect();
+    let mut central = hard_cases::rows();
+    central.iter_mut().for_each(|row| row[6] = 0.0);
+    let mut mirrored = central.clone();
+    mirrored.iter_mut().for_each(|row| row[5] = -row[5]);
     let (there, back) = (values(form, &central), values(form, &mirrored));
     worst(there.iter().zip(&back).map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs()))
 }
@@ -142,17 +128,8 @@ fn energy_error(form: FormValues) -> f64 {
             for &(x, width) in &along {
                 for side in [1.0, -1.0] {
                     let mut row = [0.0; 15];
-                    row[..8].copy_from_slice(&[
-                        WIDTH,
-                        depth,
-                        WAVELENGTH,
-                        SIGMA,
-                        x,
-                        side * y,
-                        offset,
-                        2.0,
-                    ]);
-                    (row[8], row[9]) = (-1e6, 1e6);
+                    row[..4].copy_from_slice(&[WIDTH, depth, WAVELENGTH, SIGMA]);
+                    row[4..10].copy_from_slice(&[x, side * y, offset, 2.0, -1e6, 1e6]);
                     rows.push(row);
                     weights.push(width * height);
                 }
@@ -163,7 +140,7 @@ fn energy_error(form: FormValues) -> f64 {
             return f64::NAN;
         }
         let products = values.iter().zip(&weights).map(|(v, w)| f64::from(*v) * w);
-        (crate::numeric::statistics::sum(products) - 1.0).abs()
+        (sum(products) - 1.0).abs()
     }))
 }
 

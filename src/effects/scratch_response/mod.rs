@@ -40,9 +40,9 @@
 //! directions changes nothing. The form `mirror_depth` gives that up (2γ in place of γ + γᵢ).
 
 mod amplitude;
+mod claims;
 mod ensemble;
 mod exhibits;
-mod findings;
 mod forms;
 mod hard_cases;
 mod laws;
@@ -84,7 +84,7 @@ pub const EFFECT: Effect = Effect {
         "scratch_response/incoherent_pair",
         "scratch_response/infinite_density",
     ],
-    findings: findings::findings,
+    claims: claims::CLAIMS,
     exhibits: exhibits::exhibits,
 };
 

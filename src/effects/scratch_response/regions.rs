@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use crate::effect::{Region, Yardstick};
-use crate::table::{Column, Table};
+use crate::effect::{Region, Yardstick, points};
+use crate::table::Table;
 
 /// Radius of the coherence area in the paper, µm.
 const SIGMA_UM: f64 = 60.0;
@@ -88,18 +88,9 @@ pub(super) type Row = [f64; 15];
 
 /// Rows as a table of the columns that `kept` holds, rounded to f32.
 pub(super) fn table(rows: &[Row], kept: impl Fn(&str) -> bool, origin: &str) -> Table {
-    let columns = COLUMNS
-        .iter()
-        .enumerate()
-        .filter(|(_, (name, _))| kept(name))
-        .map(|(i, (name, unit))| Column {
-            name: (*name).into(),
-            unit: (*unit).into(),
-            values: rows.iter().map(|row| f64::from(row[i] as f32)).collect(),
-            uncertainty: None,
-        })
-        .collect();
-    Table { columns, origin: format!("scratch_response: {origin}") }
+    let mut table = points::of_rows(COLUMNS, rows, format!("scratch_response: {origin}"));
+    table.columns.retain(|column| kept(&column.name));
+    points::rounded(table)
 }
 
 /// A column of the second scratch of a pair.
@@ -134,9 +125,9 @@ fn normal(rng: &mut ChaCha12Rng) -> f64 {
 
 fn visible(rng: &mut ChaCha12Rng, wavelength_um: f64) -> Row {
     let size = |rng: &mut ChaCha12Rng| 0.3 * (20.0_f64 / 0.3).powf(rng.random());
-    let (width, depth) = (size(rng), size(rng));
+    let sizes = [size(rng), size(rng)];
     let ends = ends_of_every_second(rng);
-    row(rng, wavelength_um, [width, depth], ends, lobe_or_anywhere)
+    row(rng, wavelength_um, sizes, ends, lobe_or_anywhere)
 }
 
 /// Ends over σ: none inside the coherence area, or one.
@@ -149,18 +140,23 @@ fn ends_of_every_second(rng: &mut ChaCha12Rng) -> [f64; 2] {
     }
 }
 
+/// W and D of velinov2018 section 5.
+fn sizes(rng: &mut ChaCha12Rng) -> [f64; 2] {
+    [rng.random_range(0.8..6.0), rng.random_range(0.8..6.0)]
+}
+
 fn long(rng: &mut ChaCha12Rng, wavelength_um: f64) -> Row {
-    let sizes = [rng.random_range(0.8..6.0), rng.random_range(0.8..6.0)];
+    let sizes = sizes(rng);
     row(rng, wavelength_um, sizes, [-10.0, 10.0], lobe_or_anywhere)
 }
 
 fn mirror(rng: &mut ChaCha12Rng, wavelength_um: f64) -> Row {
-    let sizes = [rng.random_range(0.8..6.0), rng.random_range(0.8..6.0)];
+    let sizes = sizes(rng);
     row(rng, wavelength_um, sizes, [-10.0, 10.0], within_mirror)
 }
 
 fn mirror_with_ends(rng: &mut ChaCha12Rng, wavelength_um: f64) -> Row {
-    let sizes = [rng.random_range(0.8..6.0), rng.random_range(0.8..6.0)];
+    let sizes = sizes(rng);
     let ends = ends_of_every_second(rng);
     row(rng, wavelength_um, sizes, ends, within_mirror)
 }
@@ -172,8 +168,7 @@ fn within_mirror(rng: &mut ChaCha12Rng, wavelength_um: f64, _: f64) -> f64 {
 
 fn pair(rng: &mut ChaCha12Rng, wavelength_um: f64) -> Row {
     let mut row = long(rng, wavelength_um);
-    row[11] = rng.random_range(0.8..6.0);
-    row[12] = rng.random_range(0.8..6.0);
+    [row[11], row[12]] = sizes(rng);
     row[13] = rng.random_range(-2.0..2.0) * SIGMA_UM;
     let most = if rng.random() { PI / 60.0 } else { PI };
     row[14] = rng.random_range(-most..most);
@@ -207,8 +202,8 @@ fn row(
         let beyond = (along - x).powi(2) + (across - y).powi(2);
         if beyond < 0.99 {
             let mu_o = (1.0 - beyond).sqrt();
-            let ends = [begin * SIGMA_UM, end * SIGMA_UM];
-            return [
+            let mut row = [0.0; 15];
+            row[..7].copy_from_slice(&[
                 width,
                 depth,
                 wavelength_um,
@@ -216,15 +211,10 @@ fn row(
                 along,
                 across,
                 offset,
-                mu_o + elevation.cos(),
-                ends[0],
-                ends[1],
-                mu_o,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-            ];
+            ]);
+            let mu_sum = mu_o + elevation.cos();
+            row[7..11].copy_from_slice(&[mu_sum, begin * SIGMA_UM, end * SIGMA_UM, mu_o]);
+            return row;
         }
     }
 }

@@ -73,6 +73,18 @@ impl Directions {
 }
 
 impl Scratch {
+    /// A scratch without ends along the first axis of the surface, at `offset_um` from the shaded point.
+    pub(super) fn infinite(offset_um: f64, width_um: f64, depth_um: f64) -> Self {
+        Self {
+            position_um: [0.0, offset_um],
+            direction_rad: 0.0,
+            begin_um: f64::NEG_INFINITY,
+            end_um: f64::INFINITY,
+            width_um,
+            depth_um,
+        }
+    }
+
     /// The scratch without ends, eq. 8.
     pub fn unbounded(self) -> Self {
         Self { begin_um: f64::NEG_INFINITY, end_um: f64::INFINITY, ..self }

@@ -2,7 +2,7 @@
 
 use super::EFFECT;
 use super::*;
-use crate::effect::FittedConstants;
+use crate::effect::claim::check;
 use crate::form::Form;
 
 fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
@@ -156,14 +156,7 @@ fn parts_of_a_scratch_add_up() {
 #[test]
 fn superposition_without_interference_exceeds_one_by_the_shares() {
     let light = Coherence { wavelength_um: 0.55, sigma_um: 10.0 };
-    let scratch = Scratch {
-        position_um: [0.0, 4.0],
-        direction_rad: 0.0,
-        begin_um: f64::NEG_INFINITY,
-        end_um: f64::INFINITY,
-        width_um: 1.0,
-        depth_um: 0.1,
-    };
+    let scratch = Scratch::infinite(4.0, 1.0, 0.1);
     let unit = ensemble::mirror_width(light);
     let (mut full, mut added) = (0.0, 0.0);
     for i in -16..=16 {
@@ -182,7 +175,7 @@ fn superposition_without_interference_exceeds_one_by_the_shares() {
 
 #[test]
 fn findings_agree_with_the_derivations() {
-    let findings = (EFFECT.findings)(&FittedConstants::default());
+    let findings = check(EFFECT.claims, &EFFECT.written().expect("candidates"));
     let found: Vec<&str> = findings.iter().map(|f| f.found.as_str()).collect();
     println!("{found:#?}");
     // One scratch of W = σ/20: 1 − √(2/π)/20 + |𝒟|²/(20√π), |𝒟|² = 4 and 0.
@@ -212,35 +205,4 @@ fn energies_over_the_plane_are_what_the_derivation_says() {
     let seen = study.of(Model { depth: Depth::SmallAngle, ..REFERENCE });
     let whole = plane(Model { depth: Depth::SmallAngle, ..REFERENCE });
     assert!(seen < whole && whole - seen < 0.03, "{seen} {whole}");
-}
-
-#[test]
-fn exhibits_hold_finite_numbers() {
-    use crate::effect::exhibit::ExhibitCell;
-    let exhibits = (EFFECT.exhibits)(&FittedConstants::default()).expect("exhibits");
-    for exhibit in &exhibits {
-        println!("## {}", exhibit.title);
-        for table in &exhibit.tables {
-            println!(
-                "# {} {:?}",
-                table.caption,
-                table.columns.iter().map(|c| &c.0).collect::<Vec<_>>()
-            );
-            for row in &table.rows {
-                assert_eq!(row.len(), table.columns.len(), "{}", table.caption);
-                let cells = row.iter().map(|cell| match cell {
-                    ExhibitCell::Text(words) => words.clone(),
-                    ExhibitCell::Number(value) => {
-                        assert!(value.is_finite(), "{}", table.caption);
-                        format!("{value:.4}")
-                    }
-                });
-                println!("{}", cells.collect::<Vec<_>>().join(" | "));
-            }
-        }
-        for plot in &exhibit.plots {
-            let finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
-            assert!(plot.series.iter().all(|s| s.points.iter().all(finite)), "{}", plot.stem);
-        }
-    }
 }

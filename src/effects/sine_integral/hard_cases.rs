@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use crate::effect::{Region, Yardstick};
+use crate::effect::{Region, points};
 use crate::table::{Column, Table};
 
 /// Largest |x| for which forms are judged.
@@ -22,18 +22,14 @@ pub(super) const REGIONS: &[Region] = &[
         description: "Where eq. 29 was fitted: 4000 points between those of the fits, 2000 drawn \
                       uniformly, and the hard cases inside.",
         points: near,
-        fitted: None,
-        by: None,
-        yardstick: Yardstick::MaxAbs,
+        ..Region::EMPTY
     },
     Region {
         name: "[10, 1e4]",
         description: "Beyond it, where side lobes are differences of tails: 4000 points in equal \
                       ratios, 2000 drawn log-uniformly, both signs, and the hard cases inside.",
         points: far,
-        fitted: None,
-        by: None,
-        yardstick: Yardstick::MaxAbs,
+        ..Region::EMPTY
     },
     Region {
         name: "scene",
@@ -41,9 +37,7 @@ pub(super) const REGIONS: &[Region] = &[
                       6 um, wavelengths of 380 to 780 nm and |q| up to 2, each drawn uniformly \
                       (6000 draws). |x| goes up to 198.4, half of it is below 30.",
         points: scene,
-        fitted: None,
-        by: None,
-        yardstick: Yardstick::MaxAbs,
+        ..Region::EMPTY
     },
 ];
 
@@ -53,9 +47,7 @@ pub(super) const HARD_CASES: Region = Region {
     description: "subnormal and tiny arguments, branch switches of forms, zeros of sine and cosine \
                   up to 1e4, both signs of each with their neighbours",
     points: hard_cases,
-    fitted: None,
-    by: None,
-    yardstick: Yardstick::MaxAbs,
+    ..Region::EMPTY
 };
 
 /// Points that have broken implementations, both signs of each.
@@ -65,20 +57,14 @@ pub(super) fn hard_cases() -> Table {
     // Branch switches of forms, the largest errors of eq. 29 and of its refits, the last abscissae
     // of the lookups, half a turn and the far end: each with its neighbours.
     for x in [1.0, 2.0, 3.0, 3.55, 3.56, 4.0, 10.0, 10.8, 18.9, 32.9, 13.21, FARTHEST] {
-        magnitudes.extend(neighbours(x));
+        magnitudes.extend(points::neighbours(x));
     }
     // Zeros of sine and cosine, where phase reduction cancels: all up to 16π, then sparser.
     for k in (1..=32).chain((33..=6366).step_by(127)).chain([6363, 6364, 6365, 6366]) {
-        magnitudes.extend(neighbours(f64::from(k) * FRAC_PI_2));
+        magnitudes.extend(points::neighbours(f64::from(k) * FRAC_PI_2));
     }
     let points = magnitudes.iter().map(|&m| f64::from(m)).filter(|&m| m <= FARTHEST);
     table(points.flat_map(|m| [m, -m]).collect(), "hard cases")
-}
-
-/// The f32 nearest to `x` and the ones beside it.
-fn neighbours(x: f64) -> [f32; 3] {
-    let x = x as f32;
-    [x.next_down(), x, x.next_up()]
 }
 
 /// Hard cases with |x| in [from, to].
@@ -122,9 +108,8 @@ fn scene() -> Table {
 
 /// A table of one column, `x`, rounded to f32.
 fn table(points: Vec<f64>, origin: &str) -> Table {
-    let values = points.into_iter().map(|x| f64::from(x as f32)).collect();
-    let x = Column { name: "x".into(), unit: "1".into(), values, uncertainty: None };
-    Table { columns: vec![x], origin: format!("sine_integral: {origin}") }
+    let columns = vec![Column::new("x", "1", points)];
+    points::rounded(Table { columns, origin: format!("sine_integral: {origin}") })
 }
 
 #[cfg(test)]

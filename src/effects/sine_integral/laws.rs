@@ -3,11 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::reference::sine_integral;
-use crate::effect::Law;
-use crate::numeric::statistics::largest;
-
-/// A form as the laws see it: columns of inputs to values.
-type Evaluator<'a> = &'a dyn Fn(&[Vec<f32>]) -> Vec<f32>;
+use crate::effect::{FormValues, Law};
+use crate::numeric::statistics::{largest, mean};
 
 /// Laws of the effect.
 pub(super) const LAWS: &[Law] = &[
@@ -16,9 +13,7 @@ pub(super) const LAWS: &[Law] = &[
         description: "Si(-x) = -Si(x) to the bit, and Si(0) = 0: largest |Si(x) + Si(-x)| over the \
                       hard cases.",
         violation: oddness,
-        tolerance: 0.0,
-        references: &[],
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "tail bound",
@@ -26,8 +21,8 @@ pub(super) const LAWS: &[Law] = &[
                       for x in [1e3, 1e4]. The tolerance is 4 ulp of pi/2.",
         violation: tail_excess,
         tolerance: 5e-7,
-        references: &[],
         known_violations: &[("sine_integral/published", PUBLISHED_TAIL)],
+        ..Law::EMPTY
     },
     Law {
         name: "unbiased tail",
@@ -38,16 +33,15 @@ pub(super) const LAWS: &[Law] = &[
                       rounding of pi/2 to f32 alone makes 3e-4.",
         violation: tail_bias,
         tolerance: 0.01,
-        references: &[],
         known_violations: &[("sine_integral/published", PUBLISHED_TAIL)],
+        ..Law::EMPTY
     },
     Law {
         name: "bounded",
         description: "|Si(x)| <= Si(pi): largest excess over the hard cases and a grid to 4 pi.",
         violation: excess_over_maximum,
         tolerance: 1e-4,
-        references: &[],
-        known_violations: &[],
+        ..Law::EMPTY
     },
     Law {
         name: "monotone to pi",
@@ -55,12 +49,12 @@ pub(super) const LAWS: &[Law] = &[
                       tolerance is 4 ulp of Si(pi), where the curve is flat.",
         violation: largest_fall,
         tolerance: 5e-7,
-        references: &[],
         known_violations: &[
             ("sine_integral/published", "its maximum, 1.808, lies at x = 3.04, short of pi"),
             ("sine_integral/lookup_64", CHORD),
             ("sine_integral/lookup_256", CHORD),
         ],
+        ..Law::EMPTY
     },
 ];
 
@@ -70,7 +64,7 @@ const PUBLISHED_TAIL: &str = "the tail of eq. 29 is pi/2 + (1 - a)/x, a = 0.661:
 const CHORD: &str = "the entry next to the maximum lies short of pi: from there the chord falls, by less \
                      than the error of the form";
 
-fn oddness(form: Evaluator) -> f64 {
+fn oddness(form: FormValues) -> f64 {
     let x: Vec<f32> =
         column(super::hard_cases::hard_cases().columns.into_iter().flat_map(|c| c.values));
     let mirrored = x.iter().map(|x| -x).collect();
@@ -78,7 +72,7 @@ fn oddness(form: Evaluator) -> f64 {
     largest(values.iter().zip(&mirrored).map(|(a, b)| (f64::from(*a) + f64::from(*b)).abs()))
 }
 
-fn tail_excess(form: Evaluator) -> f64 {
+fn tail_excess(form: FormValues) -> f64 {
     let x: Vec<f32> = column((0..4000).map(|i| 1e3 * 10_f64.powf(f64::from(i) / 4000.0)));
     let values = form(std::slice::from_ref(&x));
     largest(
@@ -86,7 +80,7 @@ fn tail_excess(form: Evaluator) -> f64 {
     )
 }
 
-fn tail_bias(form: Evaluator) -> f64 {
+fn tail_bias(form: FormValues) -> f64 {
     const POINTS_PER_PERIOD: usize = 256;
     let periods = [16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0];
     let x: Vec<f32> = column(periods.iter().flat_map(|n| {
@@ -95,14 +89,10 @@ fn tail_bias(form: Evaluator) -> f64 {
     let values = form(std::slice::from_ref(&x));
     let scaled: Vec<f64> =
         x.iter().zip(&values).map(|(x, v)| f64::from(*x) * (f64::from(*v) - FRAC_PI_2)).collect();
-    largest(
-        scaled
-            .chunks(POINTS_PER_PERIOD)
-            .map(|period| crate::numeric::statistics::mean(period).abs()),
-    )
+    largest(scaled.chunks(POINTS_PER_PERIOD).map(|period| mean(period).abs()))
 }
 
-fn excess_over_maximum(form: Evaluator) -> f64 {
+fn excess_over_maximum(form: FormValues) -> f64 {
     let grid = (0..=8192).map(|i| 4.0 * PI * f64::from(i) / 8192.0);
     let hard = super::hard_cases::hard_cases().columns.into_iter().flat_map(|c| c.values);
     let x: Vec<f32> = column(grid.chain(hard));
@@ -110,7 +100,7 @@ fn excess_over_maximum(form: Evaluator) -> f64 {
     largest(form(&[x]).iter().map(|v| f64::from(*v).abs() - maximum))
 }
 
-fn largest_fall(form: Evaluator) -> f64 {
+fn largest_fall(form: FormValues) -> f64 {
     let x: Vec<f32> = column((0..=4096).map(|i| PI * f64::from(i) / 4096.0));
     largest(form(&[x]).windows(2).map(|pair| f64::from(pair[0]) - f64::from(pair[1])))
 }

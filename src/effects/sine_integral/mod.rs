@@ -18,7 +18,7 @@
 //! For a given scratch and wavelength x is uniform where q is; over widths and wavelengths that are
 //! uniform too its density falls towards the far end, half of it below |x| = 30 (region `scene`).
 
-mod findings;
+mod claims;
 mod hard_cases;
 mod laws;
 mod lookup;
@@ -44,7 +44,7 @@ pub const EFFECT: Effect = Effect {
     laws: laws::LAWS,
     goals: &[],
     baselines: &["sine_integral/published"],
-    findings: findings::findings,
+    claims: claims::CLAIMS,
     exhibits: |_| Ok(Vec::new()),
 };
 

@@ -2,7 +2,8 @@
 //! against the laws. The gates hold the fitted constants; this holds what is written.
 
 use super::EFFECT;
-use crate::effect::{FittedConstants, FormEntry};
+use crate::effect::FormEntry;
+use crate::effect::claim::check;
 use crate::form::Form;
 
 fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
@@ -95,7 +96,7 @@ fn forms_are_finite_at_the_ends() {
 
 #[test]
 fn findings_agree_with_the_derivations() {
-    let findings = (EFFECT.findings)(&FittedConstants::default());
+    let findings = check(EFFECT.claims, &EFFECT.written().expect("candidates"));
     let found: Vec<&str> = findings.iter().map(|f| f.found.as_str()).collect();
     println!("{found:#?}");
     assert!(found[1].contains("0.05098 at x = ±3.56, RMS 0.02937"), "{}", found[1]);

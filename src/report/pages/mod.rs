@@ -3,7 +3,6 @@
 mod accuracy;
 mod costs;
 mod curves;
-mod exhibits;
 mod families;
 mod findings;
 mod fits;
@@ -64,9 +63,7 @@ pub fn effect_page(evidence: &Evidence<'_>) -> Result<Page, ValidateError> {
         page = page.section(accuracy::section(evidence)).section(curves::section(evidence)?);
     }
     page = page.section(costs::section(evidence));
-    for exhibit in &evidence.study.exhibits {
-        page = page.section(exhibits::section(exhibit));
-    }
+    page.sections.extend(evidence.study.exhibits.iter().cloned());
     Ok(page
         .section(accuracy::laws_section(evidence))
         .section(accuracy::parity_section(evidence))

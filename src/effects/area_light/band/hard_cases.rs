@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::regions::table;
-use crate::effect::{Region, Yardstick};
+use crate::effect::{Region, Yardstick, points};
 use crate::table::Table;
 
 /// The hard cases, as registered.
@@ -13,9 +13,8 @@ pub(crate) const HARD_CASES: Region = Region {
                   branch switches of forms and |x| to 1e5; about one period wide; a few ulp wide; across 0 \
                   and mirrored; in either order.",
     points: hard_cases,
-    fitted: None,
-    by: None,
     yardstick: Yardstick::MaxRelative,
+    ..Region::EMPTY
 };
 
 /// Bounds that have broken implementations, then bands of a few ulp, then bands of one period.
@@ -53,12 +52,9 @@ pub(super) fn hard_cases() -> Table {
 fn bounds() -> Vec<f64> {
     let mut bounds: Vec<f32> =
         vec![0.0, 1e-45, 1e-40, f32::MIN_POSITIVE, 1e-30, 1e-10, 1e-5, 1e-3, 0.1];
-    for x in [1.0, 2.0, 3.0, 4.0, 10.0, 1e3, 1e5] {
-        bounds.push(x);
-    }
+    bounds.extend([1.0, 2.0, 3.0, 4.0, 10.0, 1e3, 1e5]);
     for n in [1, 2, 3, 4, 5, 20, 200, 1999, 2000, 31_830] {
-        let x = (PI * f64::from(n)) as f32;
-        bounds.extend([x.next_down(), x, x.next_up()]);
+        bounds.extend(points::neighbours(PI * f64::from(n)));
     }
     bounds.into_iter().map(f64::from).collect()
 }

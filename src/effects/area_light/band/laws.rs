@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::REFERENCE;
 use super::hard_cases::hard_cases;
-use crate::effect::{FormValues, Law};
+use crate::effect::{FormValues, Law, points};
 use crate::numeric::statistics::largest;
 
 const REFERENCES: &[&str] = &[REFERENCE.name];
@@ -19,9 +19,8 @@ pub(crate) const ANTISYMMETRIC: Law = Law {
     description: "B(x1, x0) = -B(x0, x1) to the bit, so that B(x, x) = 0: largest sum over the hard bands, \
                   their bounds taken as bands of no width among them.",
     violation: antisymmetry,
-    tolerance: 0.0,
     references: REFERENCES,
-    known_violations: &[],
+    ..Law::EMPTY
 };
 
 /// The integrand is a square.
@@ -29,7 +28,6 @@ pub(crate) const POSITIVE: Law = Law {
     name: "positive",
     description: "B > 0 for x0 < x1: share of the hard bands wider than 1e-30 on which it is not.",
     violation: not_positive,
-    tolerance: 0.0,
     references: REFERENCES,
     known_violations: &[
         ("area_light/band_printed", CANCELS),
@@ -38,6 +36,7 @@ pub(crate) const POSITIVE: Law = Law {
         ("area_light/band_printed_lean", CANCELS),
         ("area_light/band_printed_large", CANCELS),
     ],
+    ..Law::EMPTY
 };
 
 /// The integrand is even.
@@ -45,9 +44,8 @@ pub(crate) const EVEN: Law = Law {
     name: "even",
     description: "B(-x1, -x0) = B(x0, x1) to the bit: largest difference over the hard bands.",
     violation: unevenness,
-    tolerance: 0.0,
     references: REFERENCES,
-    known_violations: &[],
+    ..Law::EMPTY
 };
 
 /// A light cut in two gives what it gave whole.
@@ -73,40 +71,40 @@ pub(crate) const TOTAL: Law = Law {
     violation: excess_over_total,
     tolerance: 1e-3,
     references: REFERENCES,
-    known_violations: &[],
+    ..Law::EMPTY
 };
 
-/// The hard bands.
-fn bands() -> [Vec<f32>; 2] {
-    let table = hard_cases();
-    [0, 1].map(|at| table.columns[at].values.iter().map(|&x| x as f32).collect())
+/// The bounds of the hard bands.
+fn bands() -> Vec<Vec<f32>> {
+    points::columns_f32(&hard_cases())
 }
 
 fn antisymmetry(form: FormValues) -> f64 {
-    let [mut x0, mut x1] = bands();
-    let bounds = x0.clone();
-    x0.extend(&bounds);
-    x1.extend(&bounds);
-    let swapped = form(&[x1.clone(), x0.clone()]);
-    let values = form(&[x0, x1]);
+    let mut bands = bands();
+    let starts = bands[0].clone();
+    bands.iter_mut().for_each(|bounds| bounds.extend(&starts));
+    let values = form(&bands);
+    bands.reverse();
+    let swapped = form(&bands);
     largest(values.iter().zip(&swapped).map(|(a, b)| (f64::from(*a) + f64::from(*b)).abs()))
 }
 
 fn unevenness(form: FormValues) -> f64 {
-    let [x0, x1] = bands();
-    let negative = |column: &[f32]| column.iter().map(|x| -x).collect::<Vec<f32>>();
-    let mirrored = form(&[negative(&x1), negative(&x0)]);
-    let values = form(&[x0, x1]);
+    let mut bands = bands();
+    let values = form(&bands);
+    bands.reverse();
+    bands.iter_mut().flatten().for_each(|x| *x = -*x);
+    let mirrored = form(&bands);
     largest(values.iter().zip(&mirrored).map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs()))
 }
 
 fn not_positive(form: FormValues) -> f64 {
-    let [x0, x1] = bands();
-    let values = form(&[x0.clone(), x1.clone()]);
+    let bands = bands();
+    let values = form(&bands);
     let wide = |a: f32, b: f32| (f64::from(b) - f64::from(a)).abs() > 1e-30;
-    let judged: Vec<f32> = x0
+    let judged: Vec<f32> = bands[0]
         .iter()
-        .zip(&x1)
+        .zip(&bands[1])
         .zip(&values)
         .filter(|((a, b), _)| wide(**a, **b))
         .map(|((a, b), v)| if a < b { *v } else { -*v })

@@ -1,11 +1,10 @@
-//! Errors of a form on lobes and half lobes, in f32 at bounds rounded to f32: what the findings and the
-//! exhibit are made of.
+//! Errors of a candidate on lobes and half lobes, in f32 at bounds rounded to f32: what the claims and
+//! the exhibit are made of.
 
 use std::f64::consts::{PI, TAU};
 
 use super::sinc_squared_band;
-use crate::effect::fitted_form::FittedForm;
-use crate::effect::{FittedConstants, FormEntry};
+use crate::effect::Candidate;
 use crate::form::FormError;
 
 /// Which part of the lobe [2πn, 2π(n + 1)].
@@ -32,46 +31,29 @@ impl Part {
     }
 }
 
-/// A form with the constants that it ships with.
-#[derive(Debug)]
-pub(super) struct BandForm(FittedForm);
+/// Relative errors on a part of the lobes `orders`.
+pub(super) fn relative_errors(
+    candidate: &Candidate,
+    part: Part,
+    orders: &[u32],
+) -> Result<Vec<f64>, FormError> {
+    let (starts, ends): (Vec<f32>, Vec<f32>) = orders.iter().map(|&n| part.bounds(n)).unzip();
+    let values = candidate.values_f32(&[&starts, &ends])?;
+    let bands = starts.iter().zip(&ends);
+    let exact = bands.map(|(&a, &b)| sinc_squared_band(f64::from(a), f64::from(b)));
+    Ok(values.iter().zip(exact).map(|(v, exact)| f64::from(*v) / exact - 1.0).collect())
+}
 
-impl BandForm {
-    /// `entry` with the constants of the fit of its name, or those in its text where there is none.
-    pub(super) fn load(entry: &FormEntry, fitted: &FittedConstants) -> Result<Self, FormError> {
-        FittedForm::new(entry, entry.name, fitted).map(Self)
-    }
-
-    /// Values in f32 on bands.
-    pub(super) fn values(&self, bands: &[(f32, f32)]) -> Result<Vec<f32>, FormError> {
-        let starts: Vec<f32> = bands.iter().map(|band| band.0).collect();
-        let ends: Vec<f32> = bands.iter().map(|band| band.1).collect();
-        self.0.single(&[&starts, &ends])
-    }
-
-    /// Relative errors on a part of the lobes `orders`.
-    pub(super) fn relative_errors(
-        &self,
-        part: Part,
-        orders: &[u32],
-    ) -> Result<Vec<f64>, FormError> {
-        let bands: Vec<(f32, f32)> = orders.iter().map(|&n| part.bounds(n)).collect();
-        let values = self.values(&bands)?;
-        let exact = |band: &(f32, f32)| sinc_squared_band(f64::from(band.0), f64::from(band.1));
-        Ok(bands.iter().zip(values).map(|(band, v)| f64::from(v) / exact(band) - 1.0).collect())
-    }
-
-    /// Largest |relative error| over lobes and half lobes n = 0 … `last`, with its part and order.
-    pub(super) fn worst(&self, last: u32) -> Result<(f64, Part, u32), FormError> {
-        let orders: Vec<u32> = (0..=last).collect();
-        let mut worst = (0.0, Part::Whole, 0);
-        for part in [Part::Whole, Part::FirstHalf, Part::SecondHalf] {
-            for (error, &n) in self.relative_errors(part, &orders)?.iter().zip(&orders) {
-                if error.abs() > worst.0 || error.is_nan() {
-                    worst = (error.abs(), part, n);
-                }
+/// Largest |relative error| over lobes and half lobes n = 0 … `last`, with its part and order.
+pub(super) fn worst(candidate: &Candidate, last: u32) -> Result<(f64, Part, u32), FormError> {
+    let orders: Vec<u32> = (0..=last).collect();
+    let mut worst = (0.0, Part::Whole, 0);
+    for part in [Part::Whole, Part::FirstHalf, Part::SecondHalf] {
+        for (error, &n) in relative_errors(candidate, part, &orders)?.iter().zip(&orders) {
+            if error.abs() > worst.0 || error.is_nan() {
+                worst = (error.abs(), part, n);
             }
         }
-        Ok(worst)
     }
+    Ok(worst)
 }

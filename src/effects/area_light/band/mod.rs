@@ -27,16 +27,16 @@
 //! can be passed to `band_printed`. Tables of Si are left out as well: to the rounding of f32 the
 //! error of eq. 27 is already that of the difference, which no Si changes.
 
+mod claims;
 mod exhibits;
-mod findings;
 mod hard_cases;
 mod laws;
 mod lobe_errors;
 mod reference;
 mod regions;
 
+pub(super) use claims::CLAIMS;
 pub(super) use exhibits::exhibits;
-pub(super) use findings::findings;
 pub(super) use hard_cases::HARD_CASES;
 pub(super) use laws::{ADDITIVE, ANTISYMMETRIC, EVEN, POSITIVE, TOTAL};
 pub use reference::sinc_squared_band;

@@ -9,7 +9,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
 use super::sinc_squared_band;
-use crate::effect::{Region, Yardstick};
+use crate::effect::{Region, Yardstick, points};
 use crate::table::{Column, Table};
 
 /// Highest order of the lobes judged.
@@ -21,9 +21,8 @@ pub(crate) const LOBES: Region = Region {
     description: "x0 to x1 over [2 pi n, 2 pi (n + 1)], its first and its second half, n = 0 ... 1000, on \
                   both sides of 0 and in either order of the bounds (12012 bands).",
     points: lobes,
-    fitted: None,
-    by: None,
     yardstick: Yardstick::MaxRelative,
+    ..Region::EMPTY
 };
 
 /// Bands of lights.
@@ -35,8 +34,8 @@ pub(crate) const SCENE_BANDS: Region = Region {
                   the relative error counts).",
     points: || scene_bands(27, 6000),
     fitted: Some(|| weighted(scene_bands(1827, 6000))),
-    by: None,
     yardstick: Yardstick::MaxRelative,
+    ..Region::EMPTY
 };
 
 /// Bands that are narrow beside a period.
@@ -45,9 +44,8 @@ pub(crate) const NARROW: Region = Region {
     description: "widths of 1e-3 to 1 rad about zeros 2 pi n, crests and anywhere, |x| to 6.3e3, \
                   log-uniform (6000 draws).",
     points: narrow,
-    fitted: None,
-    by: None,
     yardstick: Yardstick::MaxRelative,
+    ..Region::EMPTY
 };
 
 fn lobes() -> Table {
@@ -95,31 +93,16 @@ fn narrow() -> Table {
 
 /// A table of bounds, rounded to f32; a band that rounding closes is left out.
 pub(super) fn table(bands: Vec<(f64, f64)>, origin: &str) -> Table {
-    let rounded: Vec<(f32, f32)> =
-        bands.into_iter().map(|(a, b)| (a as f32, b as f32)).filter(|(a, b)| a != b).collect();
-    let column = |name: &str, values: Vec<f64>| Column {
-        name: name.into(),
-        unit: "rad".into(),
-        values,
-        uncertainty: None,
-    };
-    let starts = rounded.iter().map(|band| f64::from(band.0)).collect();
-    let ends = rounded.iter().map(|band| f64::from(band.1)).collect();
-    Table {
-        columns: vec![column("x0", starts), column("x1", ends)],
-        origin: format!("band: {origin}"),
-    }
+    let open = bands.into_iter().filter(|&(a, b)| a as f32 != b as f32);
+    let rows: Vec<[f64; 2]> = open.map(|(a, b)| [a, b]).collect();
+    let columns = [("x0", "rad"), ("x1", "rad")];
+    points::rounded(points::of_rows(columns, &rows, format!("band: {origin}")))
 }
 
 /// With a column of weights 1/B², so that squared residuals are relative.
 fn weighted(mut table: Table) -> Table {
     let [x0, x1] = [0, 1].map(|at| table.columns[at].values.clone());
     let weights = x0.iter().zip(&x1).map(|(&a, &b)| sinc_squared_band(a, b).powi(-2)).collect();
-    table.columns.push(Column {
-        name: "weight".into(),
-        unit: "1".into(),
-        values: weights,
-        uncertainty: None,
-    });
+    table.columns.push(Column::new("weight", "1", weights));
     table
 }

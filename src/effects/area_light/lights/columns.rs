@@ -1,7 +1,7 @@
 //! Tables of points: rows of arguments of a reference, rounded to f32.
 
-use crate::effect::Quantity;
-use crate::table::{Column, Table};
+use crate::effect::{Quantity, points};
+use crate::table::Table;
 
 const KW: Quantity = Quantity { name: "kw", unit: "1", domain: "(0, inf)" };
 const KS: Quantity = Quantity { name: "ks", unit: "1", domain: "(0, inf)" };
@@ -67,14 +67,6 @@ pub(super) fn table<const N: usize>(
     rows: &[[f64; N]],
     origin: &str,
 ) -> Table {
-    let column = |(index, argument): (usize, &Quantity)| Column {
-        name: argument.name.into(),
-        unit: argument.unit.into(),
-        values: rows.iter().map(|row| f64::from(row[index] as f32)).collect(),
-        uncertainty: None,
-    };
-    Table {
-        columns: arguments.iter().enumerate().map(column).collect(),
-        origin: format!("area_light: {origin}"),
-    }
+    let columns = arguments.iter().map(|argument| (argument.name, argument.unit));
+    points::rounded(points::of_rows(columns, rows, format!("area_light: {origin}")))
 }

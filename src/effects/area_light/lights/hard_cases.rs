@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::columns::{SPHERE, TRIANGLE, sphere_row, table, triangle_row};
 use super::draws::{Draw, limbs, unit};
-use crate::effect::{Region, Yardstick};
+use crate::effect::Region;
 use crate::table::Table;
 
 /// Cases of each kind.
@@ -20,9 +20,7 @@ pub(in super::super) const HARD_CASES: [Region; 2] = [
                       beyond, kW from 0.6 to 6283, k sigma from 1 to 1e4, far lobes, a limb at q = 0, \
                       lights of 1e-6 rad, lengths from 1e-6 to 1e6: 400 of each",
         points: spheres,
-        fitted: None,
-        by: None,
-        yardstick: Yardstick::MaxAbs,
+        ..Region::EMPTY
     },
     Region {
         name: "hard triangles",
@@ -33,9 +31,7 @@ pub(in super::super) const HARD_CASES: [Region; 2] = [
                       and beyond, kW from 0.6 to 6283, k sigma from 1 to 1e4, far lobes, a crossing at \
                       q = 0, lights of 1e-5 rad, lengths from 1e-6 to 1e6: 400 of each",
         points: triangles,
-        fitted: None,
-        by: None,
-        yardstick: Yardstick::MaxAbs,
+        ..Region::EMPTY
     },
 ];
 

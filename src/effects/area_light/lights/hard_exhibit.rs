@@ -14,88 +14,77 @@ use std::f64::consts::{PI, TAU};
 
 use rayon::prelude::*;
 
-use super::columns::{SPHERE, TRIANGLE};
+use super::errors::{row, single};
 use super::hard_cases::HARD_CASES;
-use super::measured::{Loaded, Points};
-use crate::effect::exhibit::{Exhibit, ExhibitCell, ExhibitError, ExhibitTable};
-use crate::effect::{FittedConstants, Quantity};
+use crate::document::{Cell, Section, Table};
+use crate::effect::{Candidate, Candidates, ClaimError};
 use crate::numeric::statistics::percentile;
+use crate::table;
 
-/// Sets of hard cases, in the order of [`HARD_CASES`], with the forms shown.
-const SHOWN: [(&[Quantity], &[&str]); 2] = [
-    (
-        &SPHERE,
-        &[
-            "sphere_line_printed",
-            "sphere_line_lean",
-            "sphere_line_medium",
-            "sphere_covered_three_medium",
-            "sphere_covered_five_medium",
-        ],
-    ),
-    (
-        &TRIANGLE,
-        &[
-            "triangle_line_printed",
-            "triangle_line_lean",
-            "triangle_line_medium",
-            "triangle_covered_three_medium",
-            "triangle_covered_five_medium",
-            "triangle_covered_split_medium",
-        ],
-    ),
+/// Candidates shown on each set of [`HARD_CASES`].
+const SHOWN: [&[&str]; 2] = [
+    &[
+        "sphere_line_printed",
+        "sphere_line_lean",
+        "sphere_line_medium",
+        "sphere_covered_three_medium",
+        "sphere_covered_five_medium",
+    ],
+    &[
+        "triangle_line_printed",
+        "triangle_line_lean",
+        "triangle_line_medium",
+        "triangle_covered_three_medium",
+        "triangle_covered_five_medium",
+        "triangle_covered_split_medium",
+    ],
 ];
 /// Part of L below which a value has no relative error: f32 resolves 6e-8 of it.
 const JUDGED: f64 = 1e-6;
 /// Half an ulp of f32, relative.
 const HALF_ULP: f64 = 5.960_464_477_539_063e-8;
 
-pub(super) fn hard_cases(fitted: &FittedConstants) -> Result<Exhibit, ExhibitError> {
-    let named: Vec<(usize, &str)> = SHOWN
+pub(super) fn hard_cases(candidates: &Candidates) -> Result<Section, ClaimError> {
+    let sets = HARD_CASES.map(|set| (set.points)());
+    let named: Vec<_> = sets
         .iter()
-        .enumerate()
-        .flat_map(|(set, (_, names))| names.iter().map(move |name| (set, *name)))
+        .zip(SHOWN)
+        .flat_map(|(points, names)| names.iter().map(move |name| (points, *name)))
         .collect();
     let rows = named
         .par_iter()
-        .map(|(set, name)| {
-            let points = Points::new((HARD_CASES[*set].points)());
-            hard_row(name, SHOWN[*set].0, &Loaded::new(name, fitted)?, &points)
+        .map(|(points, name)| {
+            hard_row(name, candidates.get(&format!("area_light/{name}"))?, points)
         })
-        .collect::<Result<Vec<_>, ExhibitError>>()?;
-    let heading = |words: &str| (words.to_owned(), "");
-    let number = |words: &str| (words.to_owned(), "1");
-    Ok(Exhibit {
-        title: "Hard cases of lights".into(),
-        text: vec![
+        .collect::<Result<Vec<_>, ClaimError>>()?;
+    let columns = [
+        ("form", ""),
+        ("cases", "1"),
+        ("not finite", "1"),
+        ("negative", "1"),
+        ("median relative error", "1"),
+        ("99 % below", "1"),
+        ("worst relative error", "1"),
+        ("by rounding of its arguments", "1"),
+        ("its case", ""),
+        ("worst relative to the lobe", "1"),
+        ("its case", ""),
+    ];
+    Ok(Section::new("Hard cases of lights")
+        .paragraph(
             "f32 against the same form in f64. Light that a limb, an edge or the horizon nearly cuts off is \
              as uncertain as the rounding of the arguments makes it. So the worst relative error, of values \
              above 1e-6 of the lobe, stands beside what rounding the arguments of its case may change, \
              relative too, the sum over arguments moved by half an ulp of f32; and errors are given relative \
              to sqrt(pi)/ks 2 pi/(kw + pi), the most that the lobe can hold. Left out of the errors: shaded \
              points on the surface of a sphere to 1e-6, where the light jumps from one half to all of the \
-             hemisphere. On the device: cargo test --release --test lights -- --nocapture."
-                .into(),
-        ],
-        plots: Vec::new(),
-        tables: vec![ExhibitTable {
-            caption: "Worst errors over the hard cases, with their rows and arguments".into(),
-            columns: vec![
-                heading("form"),
-                number("cases"),
-                number("not finite"),
-                number("negative"),
-                number("median relative error"),
-                number("99 % below"),
-                number("worst relative error"),
-                number("by rounding of its arguments"),
-                heading("its case"),
-                number("worst relative to the lobe"),
-                heading("its case"),
-            ],
+             hemisphere. On the device: cargo test --release --test lights -- --nocapture.",
+        )
+        .block(Table::of_rows(
+            "Worst errors over the hard cases, with their rows and arguments",
+            columns,
             rows,
-        }],
-    })
+        )))
 }
 
 /// Whether the shaded point lies on the surface of the sphere, to 1e-6.
@@ -106,72 +95,70 @@ fn on_surface(row: &[f64]) -> bool {
     }
 }
 
-/// The most that the lobe can hold: it is bounded by its crest and by its integral.
-fn most(points: &Points, row: usize) -> f64 {
-    let (kw, ks) = (points.columns[0][row], points.columns[1][row]);
-    PI.sqrt() / ks * TAU / (kw + PI)
+/// The most that the lobe can hold at one point: it is bounded by its crest and by its integral.
+fn most(arguments: &[f64]) -> f64 {
+    match arguments {
+        [kw, ks, ..] => PI.sqrt() / ks * TAU / (kw + PI),
+        _ => f64::NAN,
+    }
 }
 
 fn hard_row(
     name: &str,
-    arguments: &[Quantity],
-    form: &Loaded,
-    points: &Points,
-) -> Result<Vec<ExhibitCell>, ExhibitError> {
-    let (single, double) = (form.single(points)?, form.double(points)?);
+    candidate: &Candidate,
+    points: &table::Table,
+) -> Result<Vec<Cell>, ClaimError> {
+    let (single, double) = (single(candidate, points)?, candidate.values_at(points)?);
     let mut relative: Vec<f64> = Vec::new();
     let (mut worst, mut worst_relative) = ((0.0, 0), (0.0, 0));
-    for (row, (value, exact)) in single.iter().zip(&double).enumerate() {
-        if on_surface(&points.row(row)) {
+    for (at, (value, exact)) in single.iter().zip(&double).enumerate() {
+        let arguments = row(points, at);
+        if on_surface(&arguments) {
             continue;
         }
-        let (error, lobe) = ((value - exact).abs(), most(points, row));
+        let (error, lobe) = ((value - exact).abs(), most(&arguments));
         if error / lobe > worst.0 || error.is_nan() {
-            worst = (error / lobe, row);
+            worst = (error / lobe, at);
         }
         if *exact > JUDGED * lobe || exact.is_nan() {
             relative.push(error / exact);
             if error / exact > worst_relative.0 || error.is_nan() {
-                worst_relative = (error / exact, row);
+                worst_relative = (error / exact, at);
             }
         }
     }
-    let odd = |values: &[f64]| values.iter().filter(|value| !value.is_finite()).count();
+    let odd = single.iter().chain(&double).filter(|value| !value.is_finite()).count();
     let negative = single.iter().filter(|value| **value < 0.0).count();
-    let rounding = by_rounding(form, &points.row(worst_relative.1))?;
-    let case = |row: usize| {
-        let parts: Vec<String> = arguments
-            .iter()
-            .zip(points.row(row))
-            .map(|(argument, v)| format!("{} {v:.9e}", argument.name))
-            .collect();
-        ExhibitCell::Text(format!("row {row}: `{}`", parts.join(", ")))
+    let case = |at: usize| {
+        let arguments = points.columns.iter().map(|c| format!("{} {:.9e}", c.name, c.values[at]));
+        Cell::text(format!("row {at}: `{}`", arguments.collect::<Vec<_>>().join(", ")))
     };
     Ok(vec![
-        ExhibitCell::Text(format!("`{name}`")),
-        ExhibitCell::Number(single.len() as f64),
-        ExhibitCell::Number((odd(&single) + odd(&double)) as f64),
-        ExhibitCell::Number(negative as f64),
-        ExhibitCell::Number(percentile(&relative, 50.0)),
-        ExhibitCell::Number(percentile(&relative, 99.0)),
-        ExhibitCell::Number(worst_relative.0),
-        ExhibitCell::Number(rounding),
+        format!("`{name}`").into(),
+        (single.len() as f64).into(),
+        (odd as f64).into(),
+        (negative as f64).into(),
+        percentile(&relative, 50.0).into(),
+        percentile(&relative, 99.0).into(),
+        worst_relative.0.into(),
+        by_rounding(candidate, points, worst_relative.1)?.into(),
         case(worst_relative.1),
-        ExhibitCell::Number(worst.0),
+        worst.0.into(),
         case(worst.1),
     ])
 }
 
 /// c/e of a case.
-fn by_rounding(form: &Loaded, arguments: &[f64]) -> Result<f64, ExhibitError> {
+fn by_rounding(candidate: &Candidate, points: &table::Table, at: usize) -> Result<f64, ClaimError> {
     // The case itself, then every argument up and down.
-    let columns = (0..arguments.len()).map(|moved| {
-        let mut column = vec![arguments[moved]; 1 + 2 * arguments.len()];
-        column[1 + 2 * moved] *= 1.0 + HALF_ULP;
-        column[2 + 2 * moved] *= 1.0 - HALF_ULP;
-        column
-    });
-    let values = form.double(&Points { columns: columns.collect() })?;
+    let mut moved = points.clone();
+    let count = moved.columns.len();
+    for (argument, column) in moved.columns.iter_mut().enumerate() {
+        column.values = vec![column.values[at]; 1 + 2 * count];
+        column.values[1 + 2 * argument] *= 1.0 + HALF_ULP;
+        column.values[2 + 2 * argument] *= 1.0 - HALF_ULP;
+    }
+    let values = candidate.values_at(&moved)?;
     let Some((exact, moved)) = values.split_first() else { return Ok(f64::NAN) };
     let change = |pair: &[f64]| {
         let [up, down] = [0, 1].map(|side| pair.get(side).map_or(f64::NAN, |v| (v - exact).abs()));

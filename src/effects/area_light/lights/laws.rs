@@ -1,7 +1,7 @@
 //! Properties that a form of a light should have whatever its error.
 
 use super::hard_cases::HARD_CASES;
-use crate::effect::{FormValues, Law};
+use crate::effect::{FormValues, Law, points};
 
 /// Radiance is not negative, and finite.
 pub(in super::super) const NOT_NEGATIVE: Law = Law {
@@ -9,7 +9,6 @@ pub(in super::super) const NOT_NEGATIVE: Law = Law {
     description: "no value below 0 and none that is not finite: largest magnitude of a negative value \
                   over the hard cases of lights, infinite for a NaN or an infinity.",
     violation: negative,
-    tolerance: 0.0,
     references: &["sphere_light", "triangle_light"],
     known_violations: &[
         ("area_light/sphere_line_printed", CANCELLED),
@@ -24,6 +23,7 @@ pub(in super::super) const NOT_NEGATIVE: Law = Law {
         ("area_light/triangle_hermite_five_printed", CANCELLED),
         ("area_light/triangle_hermite_seven_printed", CANCELLED),
     ],
+    ..Law::EMPTY
 };
 
 const CANCELLED: &str = "eq. 27 takes the difference of two numbers near pi, which is negative where the \
@@ -33,12 +33,7 @@ fn negative(form: FormValues<'_>) -> f64 {
     let mut worst = 0.0_f64;
     let mut judged = false;
     for set in &HARD_CASES {
-        let columns: Vec<Vec<f32>> = (set.points)()
-            .columns
-            .into_iter()
-            .map(|column| column.values.into_iter().map(|value| value as f32).collect())
-            .collect();
-        let values = form(&columns);
+        let values = form(&points::columns_f32(&(set.points)()));
         // The other light's arguments are not the form's: all NaN.
         if values.iter().all(|value| value.is_nan()) {
             continue;

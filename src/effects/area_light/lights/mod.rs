@@ -63,22 +63,22 @@
 //!   error of covered nodes 0.026 (row 3638).
 
 mod across;
+mod claims;
 mod columns;
 mod draws;
+mod errors;
 mod exhibits;
-mod findings;
 mod forms;
 mod hard_cases;
 mod hard_exhibit;
 mod laws;
-mod measured;
 pub mod monte_carlo;
 mod polygon;
 mod regions;
 mod sphere;
 
+pub(super) use claims::CLAIMS;
 pub(super) use exhibits::exhibits;
-pub(super) use findings::findings;
 pub(super) use forms::FORMS;
 pub(super) use hard_cases::HARD_CASES;
 pub(super) use laws::NOT_NEGATIVE;

@@ -1,6 +1,8 @@
+use super::GREEN_NM;
 use super::grating::disc;
-use super::{GREEN_NM, number, series, table};
-use crate::effect::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Cell, Figure, Section, Table};
+use crate::effect::ClaimError;
 use crate::effects::diffraction::DiffractionError;
 use crate::effects::diffraction::far_field::Transform;
 use crate::effects::diffraction::table::{NORMAL, at_wavelength};
@@ -59,47 +61,42 @@ pub(in crate::effects::diffraction) fn fixed_cosine_error()
     Ok(rings)
 }
 
-pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
-    let degrees: Vec<f64> = (0..=85).map(f64::from).collect();
-    let curve = |depth: f64| {
-        let points = degrees.iter().map(|d| (*d, grating_error(depth, d.to_radians()))).collect();
-        series(&format!("{depth} nm"), points, Stroke::Line)
-    };
+pub(super) fn exhibit() -> Result<Section, ClaimError> {
+    let mut plot = Plot::new(
+        "Error of w = 2 throughout",
+        Axis::linear("angle of incidence", "°"),
+        Axis::linear("relative error", "1"),
+    );
+    for depth in [20.0, 60.0, 120.0, 150.0] {
+        let error = |degrees: f64| (degrees, grating_error(depth, degrees.to_radians()));
+        let points = (0..=85).map(f64::from).map(error);
+        plot = plot.series(Series::line(format!("{depth} nm"), points));
+    }
+    let angles = [0.0_f64, 20.1, 43.4, 60.0, 75.0]
+        .map(|degrees| vec![degrees.into(), grating_error(120.0, degrees.to_radians()).into()]);
     let rings = fixed_cosine_error()?;
-    let rows = rings.iter().map(|r| vec![number(r.0), number(r.1), number(r.2), number(r.3)]);
-    let rows = rows.collect();
-    let at = |degrees: f64| grating_error(120.0, degrees.to_radians());
-    let angles = [0.0, 20.1, 43.4, 60.0, 75.0].map(|d| vec![number(d), number(at(d))]).into();
-    Ok(Exhibit {
-        title: "One table for every angle".into(),
-        text: vec![
+    let rings = rings.into_iter().map(|r| [r.0, r.1, r.2, r.3].map(Cell::from).to_vec());
+    Ok(Section::new("One table for every angle")
+        .paragraph(
             "A table is made at w = 2 and scaled by (1 + ω_i·ω_o)²/4, the first order in the height. \
              The curves are exact: orders of rectangular gratings at 550 nm, whatever the order. A \
-             disc's first and second orders at 550 nm are met at 20.1° and 43.4°."
-                .into(),
-        ],
-        plots: vec![ExhibitPlot {
-            stem: "diffraction-fixed-cosine",
-            title: "Error of w = 2 throughout".into(),
-            caption: "Relative error of the power of an order over the angle of incidence, for the \
-                      eye along the normal, by depth."
-                .into(),
-            x: ExhibitAxis { label: "angle of incidence", unit: "°", log: false },
-            y: ExhibitAxis { label: "relative error", unit: "1", log: false },
-            series: [20.0, 60.0, 120.0, 150.0].map(curve).into(),
-        }],
-        tables: vec![
-            table(
-                "A depth of 120 nm",
-                &[("angle of incidence", "°"), ("relative error of every order", "1")],
-                angles,
-            ),
-            table(
-                "The table of a simulated disc, 120 nm deep, against one with w of its own in every \
-                 texel, at 550 nm: relative L2 error over a ring, and relative error of its power",
-                &[("|h| from", "1"), ("to", "1"), ("relative L2 error", "1"), ("power", "1")],
-                rows,
-            ),
-        ],
-    })
+             disc's first and second orders at 550 nm are met at 20.1° and 43.4°.",
+        )
+        .block(Figure::new(
+            "diffraction-fixed-cosine",
+            "Relative error of the power of an order over the angle of incidence, for the eye along \
+             the normal, by depth.",
+            plot,
+        ))
+        .block(Table::of_rows(
+            "A depth of 120 nm",
+            [("angle of incidence", "°"), ("relative error of every order", "1")],
+            angles,
+        ))
+        .block(Table::of_rows(
+            "The table of a simulated disc, 120 nm deep, against one with w of its own in every \
+             texel, at 550 nm: relative L2 error over a ring, and relative error of its power",
+            [("|h| from", "1"), ("to", "1"), ("relative L2 error", "1"), ("power", "1")],
+            rings,
+        )))
 }

@@ -1,6 +1,8 @@
+use super::GREEN_NM;
 use super::grating::disc;
-use super::{GREEN_NM, number, series, table};
-use crate::effect::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Cell, Figure, Section, Table};
+use crate::effect::ClaimError;
 use crate::effects::diffraction::DiffractionError;
 use crate::effects::diffraction::far_field::Transform;
 use crate::effects::diffraction::table::{NORMAL, at_wavelength};
@@ -39,46 +41,38 @@ pub(in crate::effects::diffraction) fn disc_furnace(
     Ok(extents.iter().map(|e| sums(*e)).collect())
 }
 
-pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
+pub(super) fn exhibit() -> Result<Section, ClaimError> {
     let widths: Vec<f64> = (1..=49).map(|i| 0.02 * f64::from(i)).collect();
     let edge = |u: f64| 1.0 / (1.0 - u * u).sqrt();
-    let points = |f: &dyn Fn(f64) -> f64| widths.iter().map(|u| (*u, f(*u) - 1.0)).collect();
+    let missing = |(u, printed, whole): (f64, f64, f64)| (u, whole / printed - 1.0);
     let shown: Vec<f64> = widths.iter().copied().filter(|u| *u >= 0.2).collect();
-    let of_disc = disc_furnace(&shown)?;
-    let of_disc = of_disc.iter().map(|(u, printed, whole)| (*u, whole / printed - 1.0)).collect();
-    let rows = disc_furnace(&[0.25, 0.5, 0.75, 0.9, 0.98])?
-        .into_iter()
-        .map(|(u, printed, whole)| {
-            let missing = number(whole / printed - 1.0);
-            vec![number(u), number(edge(u) - 1.0), number(mean_over_disc(u) - 1.0), missing]
-        })
-        .collect();
-    Ok(Exhibit {
-        title: "The solid angle of a texel".into(),
-        text: vec![
+    let plot = Plot::new(
+        "Light that is left out without 1/cos θ_i",
+        Axis::linear("half-width in h", "1"),
+        Axis::log("relative to what is left", "1"),
+    )
+    .series(Series::dashed("at the edge", widths.iter().map(|&u| (u, edge(u) - 1.0))))
+    .series(Series::line("even table", widths.iter().map(|&u| (u, mean_over_disc(u) - 1.0))))
+    .series(Series::line("disc", disc_furnace(&shown)?.into_iter().map(missing)).strong());
+    let rows = disc_furnace(&[0.25, 0.5, 0.75, 0.9, 0.98])?.into_iter().map(missing);
+    let rows = rows.map(|(u, of_disc)| {
+        [u, edge(u) - 1.0, mean_over_disc(u) - 1.0, of_disc].map(Cell::from).to_vec()
+    });
+    Ok(Section::new("The solid angle of a texel")
+        .paragraph(
             "With ω_o = n, h is ω_i projected onto the surface, and a texel ΔA of the table stands \
              for the solid angle ΔA/cos θ_i of light. toisoul2017 eq. 6, 7 and 9–11 sum over texels \
-             without it."
-                .into(),
-        ],
-        plots: vec![ExhibitPlot {
-            stem: "diffraction-jacobian",
-            title: "Light that is left out without 1/cos θ_i".into(),
-            caption: "Over the half-width of the table: in its outermost texels, for a table of one \
-                      value, and for a simulated disc under a white sky away from the mirror."
-                .into(),
-            x: ExhibitAxis { label: "half-width in h", unit: "1", log: false },
-            y: ExhibitAxis { label: "relative to what is left", unit: "1", log: true },
-            series: vec![
-                series("at the edge", points(&edge), Stroke::Dashed),
-                series("even table", points(&mean_over_disc), Stroke::Line),
-                series("disc", of_disc, Stroke::Strong),
-            ],
-        }],
-        tables: vec![table(
+             without it.",
+        )
+        .block(Figure::new(
+            "diffraction-jacobian",
+            "Over the half-width of the table: in its outermost texels, for a table of one value, and \
+             for a simulated disc under a white sky away from the mirror.",
+            plot,
+        ))
+        .block(Table::of_rows(
             "Light that is left out, relative to what is left",
-            &[("half-width", "1"), ("at the edge", "1"), ("even table", "1"), ("disc", "1")],
+            [("half-width", "1"), ("at the edge", "1"), ("even table", "1"), ("disc", "1")],
             rows,
-        )],
-    })
+        )))
 }

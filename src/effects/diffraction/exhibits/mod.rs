@@ -14,28 +14,20 @@ pub(super) use jacobian::{disc_furnace, mean_over_disc};
 pub(super) use wavelengths::rule_errors;
 
 use super::DiffractionError;
-use crate::effect::exhibit::{
-    Exhibit, ExhibitAxis, ExhibitCell, ExhibitError, ExhibitSeries, ExhibitTable, Stroke,
-};
-use crate::effect::{DomainError, FittedConstants};
+use crate::document::Section;
+use crate::effect::{Candidates, ClaimError};
 
 /// Wavelength of what is shown at one, nm.
 pub(super) const GREEN_NM: f64 = 550.0;
 
-impl From<DiffractionError> for ExhibitError {
+impl From<DiffractionError> for ClaimError {
     fn from(error: DiffractionError) -> Self {
-        Self(error.to_string())
-    }
-}
-
-impl From<DomainError> for ExhibitError {
-    fn from(error: DomainError) -> Self {
-        Self(error.to_string())
+        Self::new(error)
     }
 }
 
 /// What the effect shows beyond its fits.
-pub(super) fn exhibits(_: &FittedConstants) -> Result<Vec<Exhibit>, ExhibitError> {
+pub(super) fn exhibits(_: &Candidates) -> Result<Vec<Section>, ClaimError> {
     Ok(vec![
         order_powers::exhibit()?,
         sections::exhibit()?,
@@ -44,26 +36,4 @@ pub(super) fn exhibits(_: &FittedConstants) -> Result<Vec<Exhibit>, ExhibitError
         cosine::exhibit()?,
         jacobian::exhibit()?,
     ])
-}
-
-const H: ExhibitAxis = ExhibitAxis { label: "h along x", unit: "1", log: false };
-
-fn series(name: &str, points: Vec<(f64, f64)>, stroke: Stroke) -> ExhibitSeries {
-    ExhibitSeries { name: name.into(), points, stroke }
-}
-
-fn number(value: f64) -> ExhibitCell {
-    ExhibitCell::Number(value)
-}
-
-fn table(
-    caption: &str,
-    columns: &[(&str, &'static str)],
-    rows: Vec<Vec<ExhibitCell>>,
-) -> ExhibitTable {
-    ExhibitTable {
-        caption: caption.into(),
-        columns: columns.iter().map(|(name, unit)| ((*name).to_owned(), *unit)).collect(),
-        rows,
-    }
 }

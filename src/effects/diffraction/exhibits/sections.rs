@@ -1,14 +1,14 @@
+use super::GREEN_NM;
 use super::grating::{disc, level};
-use super::{GREEN_NM, H, number, series, table};
-use crate::effect::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Cell, Figure, Section, Table};
+use crate::effect::ClaimError;
 use crate::effects::diffraction::illuminant::Illuminant;
 use crate::effects::diffraction::preparation::{PreparedSurface, prepared};
 use crate::effects::diffraction::surfaces::{
     Grating, HolographicPaper, Patch, Profile, grating, holographic_paper,
 };
-use crate::effects::diffraction::table::{
-    Channels, DiffractionTable, NORMAL, TableShape, of_surface,
-};
+use crate::effects::diffraction::table::{Channels, NORMAL, TableShape, of_surface};
 use crate::measured::spectra::Spectra;
 use crate::table::Grid;
 
@@ -29,8 +29,8 @@ fn shape(channels: Channels, wavelengths_nm: Vec<f64>) -> TableShape {
     TableShape { size: [SIZE, SIZE], extent: 1.0, wavelengths_nm, channels }
 }
 
-pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
-    let spectra = Spectra::built_in().map_err(|e| ExhibitError(e.to_string()))?;
+pub(super) fn exhibit() -> Result<Section, ClaimError> {
+    let spectra = Spectra::built_in()?;
     let patch = Patch { samples: 256, side_um: 51.2, line: false };
     let paper = HolographicPaper {
         cell_um: 8.0,
@@ -49,60 +49,49 @@ pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
     let wavelengths: Vec<f64> = (0..=20).map(|i| 380.0 + 20.0 * f64::from(i)).collect();
     let rgb = shape(Channels::Rgb(Illuminant::D65), wavelengths);
     let coloured = of_surface(&surfaces[0].1, &rgb, 1, NORMAL, &spectra)?;
-    let mut curves = Vec::new();
+    let axes = || (Axis::linear("h along x", "1"), Axis::log("S_d", "sr⁻¹"));
+    let (x, y) = axes();
+    let mut of_disc = Plot::new("Compact disc, h_y = 0", x, y);
+    for channel in ["R", "G", "B"] {
+        of_disc = of_disc.series(Series::line(channel, section(&coloured.grid, channel)));
+    }
+    let (x, y) = axes();
+    let mut of_three = Plot::new("Three surfaces at 550 nm, h_y = 0", x, y);
     let mut rows = Vec::new();
     for (name, surface) in &surfaces {
         let green = shape(Channels::Spectral, vec![GREEN_NM]);
         let table = of_surface(surface, &green, 2, NORMAL, &spectra)?;
-        curves.push(series(name, section(&table.grid, "S_550"), Stroke::Line));
-        rows.push(row(name, &table));
+        of_three = of_three.series(Series::line(*name, section(&table.grid, "S_550")));
+        let shares = [&table.total, &table.inside, &table.evanescent];
+        let mut row = vec![Cell::text(*name)];
+        row.extend(shares.map(|s| Cell::from(s.first().copied().unwrap_or(f64::NAN))));
+        rows.push(row);
     }
-    let y = ExhibitAxis { label: "S_d", unit: "sr⁻¹", log: true };
-    let of_disc = ["R", "G", "B"].map(|c| series(c, section(&coloured.grid, c), Stroke::Line));
-    Ok(Exhibit {
-        title: "Sections of tables".into(),
-        text: vec![
+    Ok(Section::new("Sections of tables")
+        .paragraph(
             "Tables of simulated surfaces, 51.2 µm in 256² samples under a Hann window, 257² texels \
              over ±1. The disc's tracks lie along y, so its orders lie along x and its pits spread \
-             them along y; the blazed grating sends most of the light to one side, h = −w slope."
-                .into(),
-        ],
-        plots: vec![
-            ExhibitPlot {
-                stem: "diffraction-section-disc",
-                title: "Compact disc, h_y = 0".into(),
-                caption: "Channels of linear sRGB under D65; where one is negative, outside the \
-                          gamut, it is not drawn."
-                    .into(),
-                x: H,
-                y,
-                series: of_disc.into(),
-            },
-            ExhibitPlot {
-                stem: "diffraction-section-surfaces",
-                title: "Three surfaces at 550 nm, h_y = 0".into(),
-                caption: "One wavelength: orders where m λ/d puts them.".into(),
-                x: H,
-                y,
-                series: curves,
-            },
-        ],
-        tables: vec![table(
+             them along y; the blazed grating sends most of the light to one side, h = −w slope.",
+        )
+        .block(Figure::new(
+            "diffraction-section-disc",
+            "Channels of linear sRGB under D65; where one is negative, outside the gamut, it is not \
+             drawn.",
+            of_disc,
+        ))
+        .block(Figure::new(
+            "diffraction-section-surfaces",
+            "One wavelength: orders where m λ/d puts them.",
+            of_three,
+        ))
+        .block(Table::of_rows(
             "Shares of the reflected power at 550 nm",
-            &[
+            [
                 ("surface", ""),
                 ("sum over all frequencies", "1"),
                 ("inside the table", "1"),
                 ("beyond |h| = 1", "1"),
             ],
             rows,
-        )],
-    })
-}
-
-fn row(name: &str, table: &DiffractionTable) -> Vec<crate::effect::exhibit::ExhibitCell> {
-    let mut row = vec![crate::effect::exhibit::ExhibitCell::Text(name.into())];
-    let shares = [&table.total, &table.inside, &table.evanescent];
-    row.extend(shares.map(|share| number(share.first().copied().unwrap_or(f64::NAN))));
-    row
+        )))
 }

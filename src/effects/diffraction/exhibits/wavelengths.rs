@@ -1,6 +1,8 @@
+use super::GREEN_NM;
 use super::grating::line;
-use super::{GREEN_NM, number, series, table};
-use crate::effect::exhibit::{Exhibit, ExhibitAxis, ExhibitError, ExhibitPlot, Stroke};
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Cell, Figure, Section, Table};
+use crate::effect::ClaimError;
 use crate::effects::diffraction::DiffractionError;
 use crate::effects::diffraction::illuminant::Illuminant;
 use crate::effects::diffraction::surfaces::Profile;
@@ -79,48 +81,45 @@ fn away<'a>(grid: &'a Grid, channel: &str) -> impl Iterator<Item = f64> + 'a {
     texels.map(|(_, v)| f64::from(*v))
 }
 
-pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
-    let spectra = Spectra::built_in().map_err(|e| ExhibitError(e.to_string()))?;
+pub(super) fn exhibit() -> Result<Section, ClaimError> {
+    let spectra = Spectra::built_in()?;
     let depths: Vec<f64> = (1..=17).map(|i| 10.0 * f64::from(i)).collect();
     let rules: Vec<Rules> =
         depths.iter().map(|d| rule_errors(*d, &spectra)).collect::<Result<_, _>>()?;
-    let mut curves = Vec::new();
+    let mut plot = Plot::new(
+        "Error of tables made from 550 nm",
+        Axis::linear("depth", "nm"),
+        Axis::log("relative L2 error", "1"),
+    );
     for (name, channel) in [("R", 0), ("G", 1), ("B", 2)] {
-        let over = |of: fn(&Rules) -> [f64; 3]| -> Vec<(f64, f64)> {
-            depths.iter().zip(&rules).map(|(d, r)| (*d, of(r)[channel])).collect()
+        let over = |of: fn(&Rules) -> [f64; 3]| {
+            depths.iter().zip(&rules).map(move |(depth, rules)| (*depth, of(rules)[channel]))
         };
-        curves.push(series(&format!("λ⁻², {name}"), over(|r| r.square), Stroke::Line));
-        curves.push(series(&format!("λ⁻⁴, {name}"), over(|r| r.fourth), Stroke::Dashed));
+        plot = plot
+            .series(Series::line(format!("λ⁻², {name}"), over(|rules| rules.square)))
+            .series(Series::dashed(format!("λ⁻⁴, {name}"), over(|rules| rules.fourth)));
     }
-    let rows = [20.0, 60.0, 120.0, 150.0].iter().filter_map(|depth| {
-        let rules = rules.get(depths.iter().position(|d| d == depth)?)?;
-        let mut row = vec![number(*depth)];
-        row.extend(rules.square.into_iter().chain(rules.fourth).map(number));
-        Some(row)
+    let shown = depths.iter().zip(&rules).filter(|(d, _)| [20.0, 60.0, 120.0, 150.0].contains(d));
+    let rows = shown.map(|(depth, rules)| {
+        let errors = rules.square.into_iter().chain(rules.fourth);
+        [*depth].into_iter().chain(errors).map(Cell::from).collect()
     });
-    let rows = rows.collect();
-    Ok(Exhibit {
-        title: "A table from one wavelength".into(),
-        text: vec![
+    Ok(Section::new("A table from one wavelength")
+        .paragraph(
             "A grating of 1.6 µm with a rectangular profile, recorded without error at 550 nm and \
              taken to other wavelengths by toisoul2017 eq. 2 (λ⁻²) or by the first order of a \
              shallow relief (λ⁻⁴), against the table made at every wavelength. Relative L2 error of \
-             a section for |h| > 0.12, linear sRGB under D65."
-                .into(),
-        ],
-        plots: vec![ExhibitPlot {
-            stem: "diffraction-one-wavelength",
-            title: "Error of tables made from 550 nm".into(),
-            caption: "Neither power holds for every depth: λ⁻⁴ is exact for shallow reliefs, and \
-                      a quarter of the wavelength, 137 nm, is where λ⁻² is nearest in the green."
-                .into(),
-            x: ExhibitAxis { label: "depth", unit: "nm", log: false },
-            y: ExhibitAxis { label: "relative L2 error", unit: "1", log: true },
-            series: curves,
-        }],
-        tables: vec![table(
+             a section for |h| > 0.12, linear sRGB under D65.",
+        )
+        .block(Figure::new(
+            "diffraction-one-wavelength",
+            "Neither power holds for every depth: λ⁻⁴ is exact for shallow reliefs, and a quarter of \
+             the wavelength, 137 nm, is where λ⁻² is nearest in the green.",
+            plot,
+        ))
+        .block(Table::of_rows(
             "Relative L2 error of the orders in R, G and B",
-            &[
+            [
                 ("depth", "nm"),
                 ("λ⁻², R", "1"),
                 ("λ⁻², G", "1"),
@@ -130,6 +129,5 @@ pub(super) fn exhibit() -> Result<Exhibit, ExhibitError> {
                 ("λ⁻⁴, B", "1"),
             ],
             rows,
-        )],
-    })
+        )))
 }

@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::{axis, columns, grid, log_grid, series, text};
-use crate::effect::exhibit::{
-    Exhibit, ExhibitCell, ExhibitPlot, ExhibitSeries, ExhibitTable, Stroke,
-};
+use super::{grid, log_grid};
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Figure, Section, Table};
 use crate::effects::scratch_response::amplitude::{depth_factor, sinc_pi};
 use crate::numeric::statistics::relative_l2;
 
@@ -71,122 +70,99 @@ impl Sampling {
     }
 }
 
-fn curves(values: &[f64], sampling: impl Fn(f64) -> Sampling) -> Vec<ExhibitSeries> {
-    let curve = |phase| values.iter().map(|&value| (value, sampling(value).error(phase))).collect();
-    vec![
-        series("small angles (eq. 4)", Stroke::Strong, curve(DepthPhase::SmallAngle)),
-        series("mirror direction (ours)", Stroke::Line, curve(DepthPhase::Mirror)),
-    ]
-}
-
-/// Error against angle, incidence, wavelength, W and D.
-pub(super) fn exhibit() -> Exhibit {
-    let y = axis("relative RMS error", "1", false);
-    let caption = "W and D from 0.8 to 6 um (velinov2018 section 5), exitances to 85 degrees in the plane across the \
-                   scratch, unless on the axis; vertical light of 550 nm. RMS error over RMS of the reference.";
-    let plot = |stem, title: &str, x, series| ExhibitPlot {
-        stem,
-        title: title.into(),
-        caption: caption.into(),
-        x,
-        y,
-        series,
+/// Error against exitance, incidence, wavelength, W and D.
+pub(super) fn exhibit() -> Section {
+    let figure = |stem, title, x, points: &dyn Fn(DepthPhase) -> Vec<(f64, f64)>| {
+        let small = Series::line("small angles (eq. 4)", points(DepthPhase::SmallAngle)).strong();
+        let mirror = Series::line("mirror direction (ours)", points(DepthPhase::Mirror));
+        let y = Axis::linear("relative RMS error", "1");
+        let plot = Plot::new(format!("Depth phase: error against {title}"), x, y);
+        Figure::new(
+            stem,
+            "W and D from 0.8 to 6 um (velinov2018 section 5), exitances to 85 degrees in the plane across the \
+             scratch, unless on the axis; vertical light of 550 nm. RMS error over RMS of the reference.",
+            plot.series(small).series(mirror),
+        )
     };
-    let by_exitance = |phase| -> Vec<(f64, f64)> {
-        grid(0.0, 85.0, 86)
-            .map(|angle| (angle, PAPER.error_at(angle.to_radians(), phase)))
-            .collect()
+    let over = |values: Vec<f64>, sampling: fn(f64) -> Sampling| {
+        move |phase| values.iter().map(|&v| (v, sampling(v).error(phase))).collect::<Vec<_>>()
     };
-    let incidences: Vec<f64> = grid(0.0, 80.0, 17).collect();
-    let wavelengths: Vec<f64> = grid(0.38, 0.78, 21).collect();
     let sizes: Vec<f64> = log_grid(0.3, 20.0, 25).collect();
-    let plots = vec![
-        plot(
-            "scratch-depth-exitance",
-            "Depth phase: error against exitance",
-            axis("exitance", "degrees", false),
-            vec![
-                series("small angles (eq. 4)", Stroke::Strong, by_exitance(DepthPhase::SmallAngle)),
-                series("mirror direction (ours)", Stroke::Line, by_exitance(DepthPhase::Mirror)),
-            ],
-        ),
-        plot(
-            "scratch-depth-incidence",
-            "Depth phase: error against incidence",
-            axis("incidence", "degrees", false),
-            curves(&incidences, |degrees| Sampling {
-                incidence_rad: degrees * PI / 180.0,
-                ..PAPER
-            }),
-        ),
-        plot(
-            "scratch-depth-wavelength",
-            "Depth phase: error against wavelength",
-            axis("wavelength", "um", false),
-            curves(&wavelengths, |wavelength_um| Sampling { wavelength_um, ..PAPER }),
-        ),
-        plot(
-            "scratch-depth-width",
-            "Depth phase: error against width",
-            axis("W", "um", true),
-            curves(&sizes, |width| Sampling { width_um: [width; 2], ..PAPER }),
-        ),
-        plot(
-            "scratch-depth-depth",
-            "Depth phase: error against depth",
-            axis("D", "um", true),
-            curves(&sizes, |depth| Sampling { depth_um: [0.9 * depth, 1.1 * depth], ..PAPER }),
-        ),
-    ];
-    Exhibit {
-        title: "Depth phase: small angles, mirror direction".into(),
-        text: vec![
+    Section::new("Depth phase: small angles, mirror direction")
+        .paragraph(
             "The phase differs by 2 pi (2 - g - g_i) D/lambda, which in the main lobe of a scratch under vertical \
              light is about pi lambda D/W^2: small for wide and shallow scratches. Away from vertical light \
              it is wrong in the mirror direction itself, by 4 pi (1 - cos theta) D/lambda: a few \
-             wavelengths of depth scramble the colours."
-                .into(),
+             wavelengths of depth scramble the colours.",
+        )
+        .paragraph(
             "Taken in the mirror direction of the viewer, 2g in place of g + g_i, the phase is right there at every \
              angle and still does not move with the light, so that the integrals over lights stay closed. A lobe \
              away it is off by 2 pi D tan(theta)/W: it helps wide and shallow scratches. For a point light \
-             g + g_i is known, and the form `infinite` has it at no cost."
-                .into(),
-        ],
-        plots,
-        tables: vec![incidence_table()],
-    }
+             g + g_i is known, and the form `infinite` has it at no cost.",
+        )
+        .block(figure(
+            "scratch-depth-exitance",
+            "exitance",
+            Axis::linear("exitance", "degrees"),
+            &|phase| {
+                let error = |angle: f64| PAPER.error_at(angle.to_radians(), phase);
+                grid(0.0, 85.0, 86).map(|angle| (angle, error(angle))).collect()
+            },
+        ))
+        .block(figure(
+            "scratch-depth-incidence",
+            "incidence",
+            Axis::linear("incidence", "degrees"),
+            &over(grid(0.0, 80.0, 17).collect(), |degrees| Sampling {
+                incidence_rad: degrees * PI / 180.0,
+                ..PAPER
+            }),
+        ))
+        .block(figure(
+            "scratch-depth-wavelength",
+            "wavelength",
+            Axis::linear("wavelength", "um"),
+            &over(grid(0.38, 0.78, 21).collect(), |um| Sampling { wavelength_um: um, ..PAPER }),
+        ))
+        .block(figure(
+            "scratch-depth-width",
+            "width",
+            Axis::log("W", "um"),
+            &over(sizes.clone(), |width| Sampling { width_um: [width; 2], ..PAPER }),
+        ))
+        .block(figure(
+            "scratch-depth-depth",
+            "depth",
+            Axis::log("D", "um"),
+            &over(sizes, |depth| Sampling { depth_um: [0.9 * depth, 1.1 * depth], ..PAPER }),
+        ))
+        .block(incidence_table())
 }
 
-fn incidence_table() -> ExhibitTable {
+fn incidence_table() -> Table {
     let bands = [
         ("W, D 0.8 to 6 um", [0.8, 6.0], [0.8, 6.0]),
         ("W 20, D 0.3 um", [20.0; 2], [0.3; 2]),
         ("W 6, D 0.8 um", [6.0; 2], [0.8; 2]),
         ("W 0.8, D 6 um", [0.8; 2], [6.0; 2]),
     ];
-    let rows = bands
-        .iter()
-        .flat_map(|&(name, width_um, depth_um)| {
-            [0.0, 20.0, 45.0, 70.0].map(|degrees| {
-                let sampling =
-                    Sampling { width_um, depth_um, incidence_rad: degrees * PI / 180.0, ..PAPER };
-                vec![
-                    text(name),
-                    ExhibitCell::Number(degrees),
-                    ExhibitCell::Number(sampling.error(DepthPhase::SmallAngle)),
-                    ExhibitCell::Number(sampling.error(DepthPhase::Mirror)),
-                ]
-            })
+    let rows = bands.into_iter().flat_map(|(name, width_um, depth_um)| {
+        [0.0, 20.0, 45.0, 70.0].map(|degrees| {
+            let incidence_rad = degrees * PI / 180.0;
+            let sampling = Sampling { width_um, depth_um, incidence_rad, ..PAPER };
+            let errors = [DepthPhase::SmallAngle, DepthPhase::Mirror].map(|p| sampling.error(p));
+            vec![name.into(), degrees.into(), errors[0].into(), errors[1].into()]
         })
-        .collect();
-    ExhibitTable {
-        caption: "Relative RMS error over exitances, 550 nm".into(),
-        columns: columns(&[
+    });
+    Table::of_rows(
+        "Relative RMS error over exitances, 550 nm",
+        [
             ("scratch", ""),
             ("incidence", "degrees"),
             ("small angles", "1"),
             ("mirror direction", "1"),
-        ]),
+        ],
         rows,
-    }
+    )
 }

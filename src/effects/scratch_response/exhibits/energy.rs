@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
-use super::{axis, columns, grid, series, text};
-use crate::effect::exhibit::{Exhibit, ExhibitCell, ExhibitPlot, ExhibitTable, Stroke};
+use super::grid;
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Cell, Figure, Section, Table};
 use crate::effects::scratch_response::ensemble::{
     Base, Depth, Ends, Lit, Model, Recipe, Sum, all_models, mirror_width, scratches,
     under_normal_light,
@@ -118,70 +119,53 @@ fn of_surface(recipe: Recipe, seed: u64) -> EnergyStudy {
 }
 
 /// The energy of every combination.
-pub(super) fn exhibit() -> Exhibit {
+pub(super) fn exhibit() -> Section {
     let studies = DENSITIES.map(EnergyStudy::new);
     let (points, area) = disc();
     let mirror: f64 = points.iter().map(|&d| area * mirror_amplitude(LIGHT, d).powi(2)).sum();
-    let mut titles = columns(&[("depth phase", ""), ("ends", ""), ("sum", ""), ("mirror", "")]);
-    titles.extend(DENSITIES.iter().map(|n| (format!("disc, {n} per area"), "1")));
-    titles.extend(DENSITIES.iter().map(|n| (format!("plane, {n} per area"), "1")));
-    let number = |value: f64| {
-        if value.is_finite() { ExhibitCell::Number(value) } else { text("not defined") }
-    };
-    let rows = all_models()
-        .iter()
-        .enumerate()
-        .map(|(i, model)| {
-            let mut row = words(*model).map(text).to_vec();
-            row.extend(studies.iter().map(|study| number(study.disc[i])));
-            row.extend(studies.iter().map(|study| number(study.plane[i])));
-            row
-        })
-        .collect();
     let shares = DENSITIES
         .iter()
         .zip(&studies)
-        .map(|(n, study)| [*n, study.light_share, study.density].map(ExhibitCell::Number).to_vec());
-    Exhibit {
-        title: "Energy of a scratched mirror".into(),
-        text: vec![
-            format!(
-                "The mirror alone reflects {mirror:.9} over the disc of visible directions. Vertical light of 550 nm, \
-                 sigma = 10 um, W and D uniform from 0.3 to 2 um, lengths from sigma to 20 sigma, any \
-                 orientation; means over {ENSEMBLES} surfaces."
-            ),
+        .map(|(n, study)| [*n, study.light_share, study.density].map(Cell::from).to_vec());
+    let mut columns = ["depth phase", "ends", "sum", "mirror"].map(|t| (t.to_owned(), "")).to_vec();
+    columns.extend(DENSITIES.iter().map(|n| (format!("disc, {n} per area"), "1")));
+    columns.extend(DENSITIES.iter().map(|n| (format!("plane, {n} per area"), "1")));
+    let energy =
+        |value: f64| if value.is_finite() { value.into() } else { Cell::text("not defined") };
+    let rows = all_models().into_iter().enumerate().map(|(i, model)| {
+        let mut row = words(model).map(Cell::text).to_vec();
+        row.extend(studies.iter().map(|study| energy(study.disc[i])));
+        row.extend(studies.iter().map(|study| energy(study.plane[i])));
+        row
+    });
+    Section::new("Energy of a scratched mirror")
+        .paragraph(format!(
+            "The mirror alone reflects {mirror:.9} over the disc of visible directions. Vertical light of 550 nm, \
+             sigma = 10 um, W and D uniform from 0.3 to 2 um, lengths from sigma to 20 sigma, any \
+             orientation; means over {ENSEMBLES} surfaces."
+        ))
+        .paragraph(
             "A surface of phase alone reflects 1 over the whole plane. The full sum stays there up to crossings, \
              where overlapping scratches add their complex amplitudes and not their depths. Without cross term \
              and blend the scratches come on top of the mirror; rho_c takes back twice the share of the light \
-             that falls into them on average, whatever their depth; |D|^2 a takes back what they show."
-                .into(),
-        ],
-        plots: vec![one_scratch()],
-        tables: vec![
-            ExhibitTable {
-                caption: "Share of the light that falls into scratches (a), and rho_c of eq. 17".into(),
-                columns: columns(&[("scratches per area", "1"), ("a", "1"), ("rho_c", "1")]),
-                rows: shares.collect(),
-            },
-            ExhibitTable {
-                caption: "Reflected energy by combination: over the visible disc, and over the whole plane".into(),
-                columns: titles,
-                rows,
-            },
-        ],
-    }
+             that falls into them on average, whatever their depth; |D|^2 a takes back what they show.",
+        )
+        .block(one_scratch())
+        .block(Table::of_rows(
+            "Share of the light that falls into scratches (a), and rho_c of eq. 17",
+            [("scratches per area", "1"), ("a", "1"), ("rho_c", "1")],
+            shares,
+        ))
+        .block(Table::of_rows(
+            "Reflected energy by combination: over the visible disc, and over the whole plane",
+            columns,
+            rows,
+        ))
 }
 
 /// Energy over the plane of a mirror with one infinite scratch, against the wavelength, in closed form.
-fn one_scratch() -> ExhibitPlot {
-    let scratch = Scratch {
-        position_um: [0.0; 2],
-        direction_rad: 0.0,
-        begin_um: f64::NEG_INFINITY,
-        end_um: f64::INFINITY,
-        width_um: 3.0,
-        depth_um: 0.4,
-    };
+fn one_scratch() -> Figure {
+    let scratch = Scratch::infinite(0.0, 3.0, 0.4);
     let curve = |taken: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
         grid(0.38, 0.78, 81)
             .map(|wavelength_um| {
@@ -191,20 +175,20 @@ fn one_scratch() -> ExhibitPlot {
             })
             .collect()
     };
-    ExhibitPlot {
-        stem: "scratch-energy-wavelength",
-        title: "Energy of a mirror with one scratch".into(),
-        caption: "An infinite scratch through the shaded point, W = 3 um, D = 0.4 um, sigma = 60 um, over the whole \
-                  plane of direction cosines at a fixed depth phase. The full sum and the energy blend are 1."
-            .into(),
-        x: axis("wavelength", "um", false),
-        y: axis("reflected energy", "1", false),
-        series: vec![
-            series("no blend", Stroke::Line, curve(&|_| 0.0)),
-            series("rho_c (eq. 6, 17)", Stroke::Strong, curve(&|_| scratch.density(60.0))),
-            series("energy blend (ours)", Stroke::Dashed, curve(&|lobe| lobe)),
-        ],
-    }
+    let plot = Plot::new(
+        "Energy of a mirror with one scratch",
+        Axis::linear("wavelength", "um"),
+        Axis::linear("reflected energy", "1"),
+    )
+    .series(Series::line("no blend", curve(&|_| 0.0)))
+    .series(Series::line("rho_c (eq. 6, 17)", curve(&|_| scratch.density(60.0))).strong())
+    .series(Series::dashed("energy blend (ours)", curve(&|lobe| lobe)));
+    Figure::new(
+        "scratch-energy-wavelength",
+        "An infinite scratch through the shaded point, W = 3 um, D = 0.4 um, sigma = 60 um, over the whole \
+         plane of direction cosines at a fixed depth phase. The full sum and the energy blend are 1.",
+        plot,
+    )
 }
 
 fn words(model: Model) -> [&'static str; 4] {

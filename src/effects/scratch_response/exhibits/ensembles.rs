@@ -4,8 +4,8 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
 
-use super::{axis, columns, series, text};
-use crate::effect::exhibit::{Exhibit, ExhibitCell, ExhibitPlot, ExhibitTable, Stroke};
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Cell, Figure, Section, Table};
 use crate::effects::scratch_response::ensemble::{
     Base, Depth, Ends, Lit, Model, PUBLISHED, REFERENCE, Recipe, Sum, mirror_width, scratches,
     under_normal_light,
@@ -118,78 +118,60 @@ fn direction(rng: &mut ChaCha12Rng, scratches: &[Scratch], seen: Seen) -> [f64; 
 }
 
 /// Errors against scratches per coherence area.
-pub(super) fn exhibit() -> Exhibit {
+pub(super) fn exhibit() -> Section {
     let any = std::f64::consts::PI;
     let brushed = 2.0_f64.to_radians();
     let scratch = DENSITIES.map(|n| EnsembleStudy::of_scratches(n, any));
     let parallel = DENSITIES.map(|n| EnsembleStudy::of_scratches(n, brushed));
     let mirror = DENSITIES.map(EnsembleStudy::of_mirror);
-    Exhibit {
-        title: "Ensembles: each simplification on its own, and all together".into(),
-        text: vec![format!(
+    let in_mirror = [2, 3, 4, 5, 6, 8, 9, 10];
+    Section::new("Ensembles: each simplification on its own, and all together")
+        .paragraph(format!(
             "Seeded ensembles of {ENSEMBLES} surfaces with {DIRECTIONS} directions each, vertical light of 550 nm, \
              sigma = 60 um, W and D uniform from 0.8 to 6 um, lengths log-uniform from sigma to 20 sigma, \
              any orientation or within one degree. A scratch counts if its line passes within sigma of the \
              shaded point. Errors at a point contain speckle, which a pixel averages; the ratio of means \
              says what is left after averaging."
-        )],
-        plots: vec![
-            plot("scratch-ensemble-lobes", "In the lobes of scratches", &scratch, &[1, 2, 3, 6, 8]),
-            plot(
-                "scratch-ensemble-mirror",
-                "In the mirror's lobe",
-                &mirror,
-                &[2, 3, 4, 5, 6, 8, 9, 10],
-            ),
-        ],
-        tables: vec![
-            table("In the lobes of scratches of any orientation, beyond the mirror's", &scratch),
-            table("In the lobes of scratches within one degree of each other", &parallel),
-            table("In the mirror's lobe", &mirror),
-        ],
-    }
+        ))
+        .block(figure(
+            "scratch-ensemble-lobes",
+            "In the lobes of scratches",
+            &scratch,
+            &[1, 2, 3, 6, 8],
+        ))
+        .block(figure("scratch-ensemble-mirror", "In the mirror's lobe", &mirror, &in_mirror))
+        .block(table(
+            "In the lobes of scratches of any orientation, beyond the mirror's",
+            &scratch,
+        ))
+        .block(table("In the lobes of scratches within one degree of each other", &parallel))
+        .block(table("In the mirror's lobe", &mirror))
 }
 
-fn plot(
-    stem: &'static str,
-    title: &str,
-    studies: &[EnsembleStudy],
-    models: &[usize],
-) -> ExhibitPlot {
-    ExhibitPlot {
-        stem,
-        title: format!("{title}: error against scratches per coherence area"),
-        caption: "RMS error over RMS of the reference (full, coherent, finite, cross term).".into(),
-        x: axis("scratches within sigma", "1", true),
-        y: axis("relative RMS error", "1", true),
-        series: models
-            .iter()
-            .map(|&i| {
-                let points = DENSITIES.iter().zip(studies).map(|(n, s)| (*n, s.rms[i])).collect();
-                let stroke = if i == 6 { Stroke::Strong } else { Stroke::Line };
-                series(MODELS[i].0, stroke, points)
-            })
-            .collect(),
+fn figure(stem: &str, title: &str, studies: &[EnsembleStudy], models: &[usize]) -> Figure {
+    let mut plot = Plot::new(
+        format!("{title}: error against scratches per coherence area"),
+        Axis::log("scratches within sigma", "1"),
+        Axis::log("relative RMS error", "1"),
+    );
+    for &i in models {
+        let points = DENSITIES.iter().zip(studies).map(|(n, study)| (*n, study.rms[i]));
+        let series = Series::line(MODELS[i].0, points);
+        plot = plot.series(if i == 6 { series.strong() } else { series });
     }
+    let caption = "RMS error over RMS of the reference (full, coherent, finite, cross term).";
+    Figure::new(stem, caption, plot)
 }
 
-fn table(caption: &str, studies: &[EnsembleStudy]) -> ExhibitTable {
-    let mut titles = columns(&[("model", "")]);
-    titles.extend(DENSITIES.iter().map(|n| (format!("RMS, {n} per area"), "1")));
-    titles.extend(DENSITIES.iter().map(|n| (format!("mean, {n} per area"), "1")));
-    let rows = (1..MODELS.len())
-        .map(|i| {
-            let rms = studies.iter().map(|study| study.rms[i]);
-            let mean = studies.iter().map(|study| study.mean[i]);
-            [text(MODELS[i].0)]
-                .into_iter()
-                .chain(rms.chain(mean).map(ExhibitCell::Number))
-                .collect()
-        })
-        .collect();
-    ExhibitTable {
-        caption: format!("{caption}: relative RMS error, and mean over the mean of the reference"),
-        columns: titles,
-        rows,
-    }
+fn table(caption: &str, studies: &[EnsembleStudy]) -> Table {
+    let mut columns = vec![("model".to_owned(), "")];
+    columns.extend(DENSITIES.iter().map(|n| (format!("RMS, {n} per area"), "1")));
+    columns.extend(DENSITIES.iter().map(|n| (format!("mean, {n} per area"), "1")));
+    let rows = (1..MODELS.len()).map(|i| {
+        let rms = studies.iter().map(|study| study.rms[i]);
+        let numbers = rms.chain(studies.iter().map(|study| study.mean[i])).map(Cell::from);
+        [Cell::text(MODELS[i].0)].into_iter().chain(numbers).collect()
+    });
+    let caption = format!("{caption}: relative RMS error, and mean over the mean of the reference");
+    Table::of_rows(caption, columns, rows)
 }

@@ -2,8 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{axis, columns, grid, series};
-use crate::effect::exhibit::{Exhibit, ExhibitCell, ExhibitPlot, ExhibitTable, Stroke};
+use super::grid;
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{Cell, Figure, Section, Table};
 use crate::effects::scratch_response::amplitude::{depth_factor, sinc_pi};
 
 /// Wavelength of fig. 3, µm.
@@ -34,55 +35,40 @@ pub(in super::super) fn side_lobe_energy(width_um: f64, depth_um: f64) -> (f64, 
 }
 
 /// The figure, and side-lobe energies over depths.
-pub(super) fn exhibit() -> Exhibit {
+pub(super) fn exhibit() -> Section {
     let angles: Vec<f64> = grid(-0.999 * FRAC_PI_2, 0.999 * FRAC_PI_2, 901).collect();
+    let peak = lobe(WIDTH_UM, DEPTH_UM, 0.0, 2.0);
     let curve = |mu_sum: fn(f64) -> f64| -> Vec<(f64, f64)> {
-        let peak = lobe(WIDTH_UM, DEPTH_UM, 0.0, 2.0);
         let value = |angle: f64| lobe(WIDTH_UM, DEPTH_UM, angle, mu_sum(angle)) / peak;
         angles.iter().map(|&angle| (angle.to_degrees(), value(angle).max(1e-5))).collect()
     };
-    let plot = ExhibitPlot {
-        stem: "scratch-figure-three",
-        title: "Radiance of one scratch (velinov2018 fig. 3)".into(),
-        caption: format!(
-            "Vertical light of 700 nm, plane across the scratch, over the value in the mirror direction; W = \
-             {WIDTH_UM} um, D = {DEPTH_UM} um, since the caption states neither. Drawn from 1e-5 up."
-        ),
-        x: axis("exitance", "degrees", false),
-        y: axis("radiance over that at 0", "1", true),
-        series: vec![
-            series("small angles, exp(i 4 pi D/lambda)", Stroke::Strong, curve(|_| 2.0)),
-            series(
-                "at its angles, exp(i 2 pi (g + g_i) D/lambda)",
-                Stroke::Dashed,
-                curve(|angle| 1.0 + angle.cos()),
-            ),
-        ],
-    };
-    let rows = [0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3, 2.0, 3.0, 6.0]
-        .iter()
-        .map(|&depth| {
-            let (small, angular) = side_lobe_energy(WIDTH_UM, depth);
-            [depth, small, angular, small / angular].map(ExhibitCell::Number).to_vec()
-        })
-        .collect();
-    Exhibit {
-        title: "Depth phase at small angles: fig. 3".into(),
-        text: vec![
+    let plot = Plot::new(
+        "Radiance of one scratch (velinov2018 fig. 3)",
+        Axis::linear("exitance", "degrees"),
+        Axis::log("radiance over that at 0", "1"),
+    )
+    .series(Series::line("small angles, exp(i 4 pi D/lambda)", curve(|_| 2.0)).strong())
+    .series(Series::dashed(
+        "at its angles, exp(i 2 pi (g + g_i) D/lambda)",
+        curve(|angle| 1.0 + angle.cos()),
+    ));
+    let caption = format!(
+        "Vertical light of 700 nm, plane across the scratch, over the value in the mirror direction; W = \
+         {WIDTH_UM} um, D = {DEPTH_UM} um, since the caption states neither. Drawn from 1e-5 up."
+    );
+    let rows = [0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3, 2.0, 3.0, 6.0].map(|depth| {
+        let (small, angular) = side_lobe_energy(WIDTH_UM, depth);
+        [depth, small, angular, small / angular].map(Cell::from).to_vec()
+    });
+    Section::new("Depth phase at small angles: fig. 3")
+        .paragraph(
             "Both curves share the zeros of the sinc; the depth phase multiplies its lobes. At small angles every \
-             lobe has one factor, at its angles each lobe has its own, so colours move with the angle."
-                .into(),
-        ],
-        plots: vec![plot],
-        tables: vec![ExhibitTable {
-            caption: "Energy of the side lobes of the same scratch, by its depth".into(),
-            columns: columns(&[
-                ("D", "um"),
-                ("at small angles", "1"),
-                ("at its angles", "1"),
-                ("ratio", "1"),
-            ]),
+             lobe has one factor, at its angles each lobe has its own, so colours move with the angle.",
+        )
+        .block(Figure::new("scratch-figure-three", caption, plot))
+        .block(Table::of_rows(
+            "Energy of the side lobes of the same scratch, by its depth",
+            [("D", "um"), ("at small angles", "1"), ("at its angles", "1"), ("ratio", "1")],
             rows,
-        }],
-    }
+        ))
 }

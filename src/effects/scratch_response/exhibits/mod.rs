@@ -12,36 +12,18 @@ pub(super) use energy::EnergyStudy;
 pub(super) use ensembles::EnsembleStudy;
 pub(super) use figure_three::side_lobe_energy;
 
-use crate::effect::FittedConstants;
-use crate::effect::exhibit::{
-    Exhibit, ExhibitAxis, ExhibitCell, ExhibitError, ExhibitSeries, Stroke,
-};
+use crate::document::Section;
+use crate::effect::{Candidates, ClaimError};
 
 /// The exhibits, in the order of the page.
-pub(super) fn exhibits(_: &FittedConstants) -> Result<Vec<Exhibit>, ExhibitError> {
+pub(super) fn exhibits(candidates: &Candidates) -> Result<Vec<Section>, ClaimError> {
     Ok(vec![
         figure_three::exhibit(),
         depth_phase::exhibit(),
-        ends::exhibit()?,
+        ends::exhibit(candidates)?,
         ensembles::exhibit(),
         energy::exhibit(),
     ])
-}
-
-fn axis(label: &'static str, unit: &'static str, log: bool) -> ExhibitAxis {
-    ExhibitAxis { label, unit, log }
-}
-
-fn series(name: &str, stroke: Stroke, points: Vec<(f64, f64)>) -> ExhibitSeries {
-    ExhibitSeries { name: name.into(), points, stroke }
-}
-
-fn text(words: &str) -> ExhibitCell {
-    ExhibitCell::Text(words.into())
-}
-
-fn columns(titles: &[(&str, &'static str)]) -> Vec<(String, &'static str)> {
-    titles.iter().map(|(title, unit)| ((*title).to_owned(), *unit)).collect()
 }
 
 /// `count` values in equal ratios from `from` to `to`, ends included.

@@ -1,66 +1,93 @@
 //! Claims of toisoul2017 on the table and its use, recomputed.
 
+use std::f64::consts::{PI, TAU};
+
 use nalgebra::{DMatrix, Vector3};
 
-use super::DiffractionError;
 use super::exhibits::{
     GREEN_NM, cosine_error, disc_furnace, fixed_cosine_error, mean_over_disc, rule_errors,
 };
 use super::preparation::{USUAL, prepared};
 use super::surfaces::{HolographicPaper, Patch, holographic_paper};
 use super::table::{Channels, NORMAL, TableShape, of_surface};
-use crate::effect::{Finding, FittedConstants};
+use super::{DiffractionError, sinusoid_order_power};
+use crate::effect::claim::REPORT;
+use crate::effect::{Candidates, Claim, ClaimError, Found};
 use crate::measured::spectra::Spectra;
 
-type Claim = fn(&Spectra) -> Result<Finding, DiffractionError>;
-
-/// What is found for each claim.
-pub(super) fn findings(_: &FittedConstants) -> Vec<Finding> {
-    let claims: [Claim; 7] =
-        [prefactor, one_wavelength, jacobian, fixed_cosine, reflection, cross_terms, fresnel];
-    match Spectra::built_in() {
-        Ok(spectra) => claims
-            .iter()
-            .map(|claim| claim(&spectra).unwrap_or_else(|e| not_evaluated(&e.to_string())))
-            .collect(),
-        Err(e) => vec![not_evaluated(&e.to_string())],
-    }
-}
-
-fn not_evaluated(error: &str) -> Finding {
-    finding("toisoul2017", "a claim", error.to_owned(), "not evaluated")
-}
-
-fn finding(place: &str, printed: &str, found: String, verdict: &str) -> Finding {
-    Finding {
-        place: place.into(),
-        printed: printed.into(),
-        found,
-        verdict: verdict.into(),
-        command: "striae report".into(),
-    }
-}
+pub(super) const CLAIMS: &[Claim<Candidates>] = &[
+    Claim {
+        name: "prefactor",
+        place: "toisoul2017 eq. 1 and 2",
+        printed: "4π² F² G ∫ I P/λ² dλ",
+        command: REPORT,
+        check: prefactor,
+    },
+    Claim {
+        name: "one_wavelength",
+        place: "toisoul2017 eq. 2",
+        printed: "S_d = ∫ I(2πh/λ) P/λ² dλ from one wavelength",
+        command: REPORT,
+        check: one_wavelength,
+    },
+    Claim {
+        name: "jacobian",
+        place: "toisoul2017 eq. 6, 7",
+        printed: "Σ (1 + ω_i·ω_o)² S_d L_i",
+        command: REPORT,
+        check: jacobian,
+    },
+    Claim {
+        name: "fixed_cosine",
+        place: "toisoul2017 eq. 5, 6",
+        printed: "one table, times (1 + ω_i·ω_o)²",
+        command: REPORT,
+        check: fixed_cosine,
+    },
+    Claim {
+        name: "reflection",
+        place: "toisoul2017 alg. 2, line 5",
+        printed: "ω_i = ω_o − 2(ω_o·h)h",
+        command: REPORT,
+        check: reflection,
+    },
+    Claim {
+        name: "cross_terms",
+        place: "toisoul2017 eq. 10, 11",
+        printed: "Σ_m f_v(h_k, h_m) Σ_l Σ_n f_h(h_n, h_l)",
+        command: REPORT,
+        check: cross_terms,
+    },
+    Claim {
+        name: "fresnel",
+        place: "toisoul2017 eq. 4",
+        printed: "F² becomes Schlick's F_0²",
+        command: REPORT,
+        check: fresnel,
+    },
+];
 
 fn percent(values: [f64; 3]) -> String {
     values.map(|v| format!("{:.1}", 100.0 * v)).join(", ")
 }
 
-fn prefactor(_: &Spectra) -> Result<Finding, DiffractionError> {
-    let phase = std::f64::consts::TAU / GREEN_NM * NORMAL * 20.0;
+fn prefactor(_: &Candidates) -> Result<Found, ClaimError> {
+    let phase = TAU / GREEN_NM * NORMAL * 20.0;
     let shallow = 0.25 * phase * phase;
-    let exact = super::sinusoid_order_power(1, phase).unwrap_or(f64::NAN);
+    let exact = sinusoid_order_power(1, phase)?;
     let found = format!(
         "if I is the power spectrum |P|²/A of the phase screen, which is what a camera records, the \
          prefactor is F² G/(w² λ²) and 4π² = {:.1} is too much; if I is that of the heights, |H|²/A, \
          it is 4π² F² G/λ⁴, with two more powers of λ. With k² w² |H|² a sinusoid of 20 nm at \
          {GREEN_NM} nm has {shallow:.4} in a first order (J_1² = {exact:.4})",
-        4.0 * std::f64::consts::PI.powi(2)
+        4.0 * PI.powi(2)
     );
-    Ok(finding("toisoul2017 eq. 1 and 2", "4π² F² G ∫ I P/λ² dλ", found, "does not hold"))
+    Ok(Found::new(found, "does not hold"))
 }
 
-fn one_wavelength(spectra: &Spectra) -> Result<Finding, DiffractionError> {
-    let (shallow, deep) = (rule_errors(20.0, spectra)?, rule_errors(120.0, spectra)?);
+fn one_wavelength(_: &Candidates) -> Result<Found, ClaimError> {
+    let spectra = Spectra::built_in()?;
+    let (shallow, deep) = (rule_errors(20.0, &spectra)?, rule_errors(120.0, &spectra)?);
     let found = format!(
         "exact for an amplitude grating only. Rectangular gratings of 1.6 µm recorded at {GREEN_NM} \
          nm, relative L2 error of the orders in R, G, B: 20 nm deep {} % by λ⁻² and {} % by λ⁻⁴; \
@@ -70,15 +97,10 @@ fn one_wavelength(spectra: &Spectra) -> Result<Finding, DiffractionError> {
         percent(deep.square),
         percent(deep.fourth)
     );
-    Ok(finding(
-        "toisoul2017 eq. 2",
-        "S_d = ∫ I(2πh/λ) P/λ² dλ from one wavelength",
-        found,
-        "differs",
-    ))
+    Ok(Found::new(found, "differs"))
 }
 
-fn jacobian(_: &Spectra) -> Result<Finding, DiffractionError> {
+fn jacobian(_: &Candidates) -> Result<Found, ClaimError> {
     let shares: Vec<String> = disc_furnace(&[0.5, 0.9])?
         .into_iter()
         .map(|(u, printed, whole)| {
@@ -95,10 +117,10 @@ fn jacobian(_: &Spectra) -> Result<Finding, DiffractionError> {
          white sky and nowhere else",
         shares.join(", ")
     );
-    Ok(finding("toisoul2017 eq. 6, 7", "Σ (1 + ω_i·ω_o)² S_d L_i", found, "does not hold"))
+    Ok(Found::new(found, "does not hold"))
 }
 
-fn fixed_cosine(_: &Spectra) -> Result<Finding, DiffractionError> {
+fn fixed_cosine(_: &Candidates) -> Result<Found, ClaimError> {
     let rings: Vec<String> = fixed_cosine_error()?
         .iter()
         .map(|r| format!("{:.1} % for |h| from {} to {}", 100.0 * r.2, r.0, r.1))
@@ -111,10 +133,10 @@ fn fixed_cosine(_: &Spectra) -> Result<Finding, DiffractionError> {
         100.0 * cosine_error(120.0, 60.0_f64.to_radians()),
         rings.join(", ")
     );
-    Ok(finding("toisoul2017 eq. 5, 6", "one table, times (1 + ω_i·ω_o)²", found, "differs"))
+    Ok(Found::new(found, "differs"))
 }
 
-fn reflection(_: &Spectra) -> Result<Finding, DiffractionError> {
+fn reflection(_: &Candidates) -> Result<Found, ClaimError> {
     let eye = Vector3::new(0.0, 0.0, 1.0);
     let (hx, hy) = (0.3_f64, 0.2_f64);
     let half = Vector3::new(hx, hy, 1.0 + (1.0 - hx * hx - hy * hy).sqrt()).normalize();
@@ -125,11 +147,11 @@ fn reflection(_: &Spectra) -> Result<Finding, DiffractionError> {
          2(ω_o·h)h − ω_o is ({:.3}, {:.3}, {:.3}), whose projection is h",
         printed.x, printed.y, printed.z, mirrored.x, mirrored.y, mirrored.z
     );
-    Ok(finding("toisoul2017 alg. 2, line 5", "ω_i = ω_o − 2(ω_o·h)h", found, "does not hold"))
+    Ok(Found::new(found, "does not hold"))
 }
 
 /// Eq. 10 sums over ranks outside and eq. 11 again inside: (Σ_m u_m)(Σ_n v_n)ᵀ in place of Σ_m u_m v_mᵀ.
-fn cross_terms(spectra: &Spectra) -> Result<Finding, DiffractionError> {
+fn cross_terms(_: &Candidates) -> Result<Found, ClaimError> {
     let paper = HolographicPaper {
         cell_um: 8.0,
         pitch_um: [1.0, 2.0],
@@ -145,13 +167,13 @@ fn cross_terms(spectra: &Spectra) -> Result<Finding, DiffractionError> {
         wavelengths_nm: vec![GREEN_NM],
         channels: Channels::Spectral,
     };
-    let grid = of_surface(&surface, &shape, 2, NORMAL, spectra)?.grid;
+    let grid = of_surface(&surface, &shape, 2, NORMAL, &Spectra::built_in()?)?.grid;
     let values = grid.channels.iter().flat_map(|c| c.values.iter().map(|v| f64::from(*v)));
     let table = DMatrix::from_row_iterator(65, 65, values);
     let norm = table.norm();
     let svd = table.svd(true, true);
     let (Some(u), Some(v)) = (svd.u, svd.v_t) else {
-        return Err(DiffractionError::unusable("table of paper", "no singular values"));
+        return Err(DiffractionError::unusable("table of paper", "no singular values").into());
     };
     let error = |rank: usize| {
         let mut wanted = DMatrix::zeros(65, 65);
@@ -174,18 +196,12 @@ fn cross_terms(spectra: &Spectra) -> Result<Finding, DiffractionError> {
         error(2),
         error(3)
     );
-    Ok(finding(
-        "toisoul2017 eq. 10, 11",
-        "Σ_m f_v(h_k, h_m) Σ_l Σ_n f_h(h_n, h_l)",
-        found,
-        "does not hold",
-    ))
+    Ok(Found::new(found, "does not hold"))
 }
 
-fn fresnel(_: &Spectra) -> Result<Finding, DiffractionError> {
+fn fresnel(_: &Candidates) -> Result<Found, ClaimError> {
     let found = "Stam's F multiplies amplitudes; Schlick's F_0 is a reflectance and enters once. \
                  Squared, a dielectric of F_0 = 0.04 reflects 0.0016, a 25th, and aluminium of 0.91 \
-                 reflects 0.83"
-        .to_owned();
-    Ok(finding("toisoul2017 eq. 4", "F² becomes Schlick's F_0²", found, "differs"))
+                 reflects 0.83";
+    Ok(Found::new(found, "differs"))
 }

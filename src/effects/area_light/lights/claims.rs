@@ -1,0 +1,257 @@
+//! Claims of velinov2018 on area lights, recomputed.
+
+use std::f64::consts::{PI, TAU};
+
+use super::draws::Draw;
+use super::errors::{exact, light_of, named, relative_l2, single};
+use super::regions::REGIONS;
+use crate::effect::claim::REPORT;
+use crate::effect::{Candidates, Claim, ClaimError, Found};
+
+pub(in super::super) const CLAIMS: [Claim<Candidates>; 8] = [
+    Claim {
+        name: "exponent",
+        place: "velinov2018 eq. 25",
+        printed: "exp(-sigma^2 k^2 xi_1)",
+        command: REPORT,
+        check: exponent,
+    },
+    Claim {
+        name: "largest_deviation",
+        place: "velinov2018 eq. 26",
+        printed: "lambda_max = 750 um, s_max = lambda_max/(2 sqrt(2 pi sigma)) = 1.40674e-3",
+        command: REPORT,
+        check: largest_deviation,
+    },
+    Claim {
+        name: "disc",
+        place: "velinov2018 eq. 31",
+        printed: "the boundary of a sphere is the disc of its radius at the distance of its centre",
+        command: REPORT,
+        check: disc,
+    },
+    Claim {
+        name: "second_root",
+        place: "velinov2018 eq. 35 and 40",
+        printed: "v = (-(b + sgn(b) sqrt(D))/(c - t))^(±1)",
+        command: REPORT,
+        check: second_root,
+    },
+    Claim {
+        name: "sign_of_zero",
+        place: "velinov2018 eq. 40",
+        printed: "sgn(b), of the coefficient of the sine",
+        command: REPORT,
+        check: sign_of_zero,
+    },
+    Claim {
+        name: "coherence",
+        place: "velinov2018 fig. 11",
+        printed: "sigma = 10 nm",
+        command: REPORT,
+        check: coherence,
+    },
+    Claim {
+        name: "single_line",
+        place: "velinov2018 §3.4, eq. 26",
+        printed: "the Gaussian is so narrow that one line stands for all",
+        command: REPORT,
+        check: single_line,
+    },
+    Claim {
+        name: "normalization",
+        place: "velinov2018 §3.4.1",
+        printed: "can be used without performing extraneous normalization",
+        command: REPORT,
+        check: normalization,
+    },
+];
+
+fn exponent(_: &Candidates) -> Result<Found, ClaimError> {
+    // σ = 60 µm at 550 nm, one standard deviation of intensity off the line.
+    let ks = TAU / 0.55 * 60.0;
+    let off = 1.0 / (2.0_f64.sqrt() * ks);
+    let [above, below] = [off, -off].map(|xi_1| (-ks * ks * xi_1).exp());
+    let found = format!(
+        "at xi_1 = ±{off:.3e}, one standard deviation for sigma 60 um and 550 nm, the printed weight is \
+         exp(∓{:.0}), that of eq. 10, exp(-sigma^2 k^2 xi_1^2), is {:.3} on both sides",
+        ks * ks * off,
+        (-ks * ks * off * off).exp()
+    );
+    // A weight of a lobe is the same on both sides, and at most 1.
+    let holds = above == below;
+    Ok(Found::new(
+        found,
+        if holds { "holds" } else { "does not hold: the square of xi_1 is missing" },
+    ))
+}
+
+fn largest_deviation(_: &Candidates) -> Result<Found, ClaimError> {
+    let deviation = |wavelength_um: f64| wavelength_um / (2.0 * 2.0_f64.sqrt() * PI * 60.0);
+    let [nanometres, micrometres] = [deviation(0.75), deviation(750.0)];
+    // Six digits are printed.
+    let printed = |value: f64| (value / 1.40674e-3 - 1.0).abs() < 5e-6;
+    let found = format!(
+        "lambda/(2 sqrt(2) pi sigma) with sigma = 60 um is {nanometres:.5e} for 750 nm and \
+         {micrometres:.5} for 750 um"
+    );
+    let verdict = match (printed(nanometres), printed(micrometres)) {
+        (true, false) => "holds for 750 nm, with pi and sigma outside the root",
+        (false, true) => "holds with pi and sigma outside the root",
+        _ => "does not hold",
+    };
+    Ok(Found::new(found, verdict))
+}
+
+fn disc(_: &Candidates) -> Result<Found, ClaimError> {
+    let ratios = [0.1_f64, 0.5, 0.9];
+    let error = |ratio: f64| ratio.atan() / ratio.asin() - 1.0;
+    let words = ratios.map(|ratio| format!("{:+.1} % at r/p = {ratio}", 100.0 * error(ratio)));
+    let verdict = match ratios.map(|ratio| error(ratio).abs() <= 0.01) {
+        [_, _, true] => "holds to 1 %",
+        [true, ..] => "holds for small lights only; not defined for r >= p, where all is lit",
+        _ => "does not hold to 1 %",
+    };
+    let words = words.join(", ");
+    Ok(Found::new(
+        format!("half-angle atan(r/p) against asin(r/p) of the silhouette: {words}"),
+        verdict,
+    ))
+}
+
+/// Residual of c + t cos γ + b sin γ at v = tan(γ/2), over the size of its terms.
+fn residual([c, t, b]: [f64; 3], v: f64) -> f64 {
+    let scale = c.abs() + t.abs() + b.abs();
+    if v.is_infinite() {
+        return (c - t).abs() / scale;
+    }
+    let square = v * v;
+    ((c + (t * (1.0 - square) + 2.0 * b * v) / (1.0 + square)) / scale).abs()
+}
+
+/// Residual up to which a root counts as one.
+const ROOT: f64 = 1e-6;
+
+fn second_root(_: &Candidates) -> Result<Found, ClaimError> {
+    let mut draw = Draw::new(40);
+    let (mut solvable, mut printed, mut right) = (0, 0, 0);
+    for _ in 0..10_000 {
+        let case = [0; 3].map(|_| draw.between(-1.0, 1.0));
+        let [c, t, b] = case;
+        let square = b * b + t * t - c * c;
+        if square < 0.0 {
+            continue;
+        }
+        solvable += 1;
+        let q = -(b + 1.0_f64.copysign(b) * square.sqrt());
+        printed += usize::from(residual(case, (c - t) / q) > ROOT);
+        right += usize::from(residual(case, (c + t) / q) > ROOT);
+    }
+    let found = format!(
+        "of {solvable} random solvable cases of c + t cos + b sin = 0 the reciprocal fails in {printed}, \
+         (c + t)/q, q = -(b + sgn(b) sqrt(D)), in {right}"
+    );
+    let verdict = match (printed, right) {
+        (0, _) => "holds",
+        (_, 0) => "does not hold: the second root is C/q, not A/q, unless t = 0",
+        _ => "does not hold",
+    };
+    Ok(Found::new(found, verdict))
+}
+
+fn sign_of_zero(_: &Candidates) -> Result<Found, ClaimError> {
+    let mut draw = Draw::new(41);
+    let (mut cases, mut zero, mut one) = (0, 0, 0);
+    for _ in 0..1000 {
+        let case = [draw.between(-1.0, 1.0), draw.between(-1.0, 1.0), 0.0];
+        let [c, t, _] = case;
+        if t.abs() <= c.abs() {
+            continue;
+        }
+        cases += 1;
+        let root = (t * t - c * c).sqrt();
+        // With sgn(0) = 0 the numerator of the first root is 0.
+        zero += usize::from(residual(case, 0.0) > ROOT);
+        one += usize::from(residual(case, -root / (c - t)) > ROOT);
+    }
+    let found = format!(
+        "with b = 0, of {cases} solvable cases sgn(0) = 0 fails in {zero}, sgn(0) = 1 in {one}"
+    );
+    let verdict = match (zero, one) {
+        (0, _) => "holds",
+        (_, 0) => {
+            "holds if sgn(0) counts as 1, and sgn is that of the coefficient in use, not of b_xi1"
+        }
+        _ => "does not hold",
+    };
+    Ok(Found::new(found, verdict))
+}
+
+fn coherence(_: &Candidates) -> Result<Found, ClaimError> {
+    let ks = TAU / 550.0 * 10.0;
+    let least = (-ks * ks * 4.0).exp();
+    let found = format!(
+        "k sigma = {ks:.3} at 550 nm: over all of the hemisphere exp(-(k sigma xi_1)^2) stays above {least:.3}"
+    );
+    let verdict = if least > 0.5 {
+        "cannot be: nothing would be specular along the scratch; micrometres are likely"
+    } else {
+        "may be: the lobe is narrower than the hemisphere"
+    };
+    Ok(Found::new(found, verdict))
+}
+
+fn single_line(candidates: &Candidates) -> Result<Found, ClaimError> {
+    let (errors, words) = on_regions(candidates, |of, exact| {
+        let [line, nodes] = [of("line_medium")?, of("covered_three_medium")?];
+        let errors = [line, nodes].map(|values| relative_l2(&values, exact));
+        Ok((errors[0], format!("{:.1} % ({:.1} %)", 100.0 * errors[0], 100.0 * errors[1])))
+    })?;
+    let found = format!(
+        "relative L2 error of the line with exact bands, in brackets of three slices where the light covers \
+         the lobe: {words}"
+    );
+    Ok(Found::new(found, extent_of(&errors, 0.1)))
+}
+
+fn normalization(candidates: &Candidates) -> Result<Found, ClaimError> {
+    let (biases, words) = on_regions(candidates, |of, exact| {
+        let bias = of("line_printed")?.iter().sum::<f64>() / exact.iter().sum::<f64>() - 1.0;
+        Ok((bias, format!("{:+.1} %", 100.0 * bias)))
+    })?;
+    let found = format!("light in all of the published form against the reference: {words}");
+    Ok(Found::new(found, extent_of(&biases, 0.05)))
+}
+
+/// Values of the candidate that does so across the slices.
+type Values<'a> = &'a dyn Fn(&str) -> Result<Vec<f64>, ClaimError>;
+
+/// A number and words of every region, from the values of candidates and of the reference.
+fn on_regions(
+    candidates: &Candidates,
+    found: impl Fn(Values<'_>, &[f64]) -> Result<(f64, String), ClaimError>,
+) -> Result<(Vec<f64>, String), ClaimError> {
+    let mut numbers = Vec::new();
+    let mut words = Vec::new();
+    for region in &REGIONS {
+        let Some(fitted) = region.fitted else { continue };
+        let points = fitted();
+        let (light, reference) = light_of(&points);
+        let values = |across: &str| single(named(candidates, light, across)?, &points);
+        let (number, shown) = found(&values, &exact(reference, &points)?)?;
+        numbers.push(number);
+        words.push(format!("{} {shown}", region.name));
+    }
+    Ok((numbers, words.join(", ")))
+}
+
+/// On how many regions a claim holds, to a relative error.
+fn extent_of(errors: &[f64], limit: f64) -> String {
+    let held = errors.iter().filter(|error| error.abs() <= limit).count();
+    let percent = 100.0 * limit;
+    match held {
+        0 => format!("does not hold: to {percent} % on none of {} regions", errors.len()),
+        _ if held == errors.len() => format!("holds: to {percent} % on all {held} regions"),
+        _ => format!("in part: to {percent} % on {held} of {} regions", errors.len()),
+    }
+}
