@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::effect::Region;
 use crate::effect::{Reference, Yardstick};
 use crate::fit::outcome::Residuals;
-use crate::form::Form;
+use crate::form::{Form, Input};
 use crate::gpu::{Device, Kernel};
 use crate::numeric::measured::Measured;
 use crate::table::Table;
@@ -325,9 +325,8 @@ pub enum Arithmetic<'d> {
 
 /// Values in f32 at the target's points.
 pub(crate) fn values_f32(shipped: &Shipped, target: &Target) -> Result<Vec<f32>, ValidateError> {
-    let narrow = narrowed(&target.inputs);
-    let inputs: Vec<&[f32]> = narrow.iter().map(Vec::as_slice).collect();
-    let mut values = shipped.form.eval_f32(&shipped.constants_f32, &inputs)?;
+    let mut values =
+        shipped.form.eval_f32_inputs(&shipped.constants_f32, &as_inputs(&target.inputs))?;
     Ok(values.swap_remove(0))
 }
 
@@ -345,12 +344,12 @@ pub(crate) fn kernel_values(
     kernel: &Kernel<'_>,
     target: &Target,
 ) -> Result<Vec<f32>, ValidateError> {
-    let mut values = kernel.evaluate(&narrowed(&target.inputs))?;
+    let mut values = kernel.evaluate_inputs(&as_inputs(&target.inputs))?;
     Ok(values.swap_remove(0))
 }
 
-fn narrowed(columns: &[Vec<f64>]) -> Vec<Vec<f32>> {
-    columns.iter().map(|column| column.iter().map(|value| *value as f32).collect()).collect()
+fn as_inputs(inputs: &[Vec<f64>]) -> Vec<Input<'_>> {
+    inputs.iter().map(Input::from).collect()
 }
 
 fn widened(values: &[f32]) -> Vec<f64> {

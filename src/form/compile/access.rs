@@ -122,9 +122,11 @@ impl<'m> Compiler<'m> {
     /// The table of a storage buffer whose numbers are given beside the text.
     fn given(&mut self, variable: &naga::GlobalVariable) -> Option<Value> {
         let name = variable.name.as_deref()?;
-        let index = self.given.iter().position(|table| table.name == name)?;
-        let length = self.given.get(index)?.values.len() as u32;
-        Some(Value::Table { table: index as u32, length })
+        let mut given = self.given.list.iter().take(self.given.given);
+        let index = given.position(|table| table.name() == name)?;
+        let table = self.given.list.get(index)?;
+        let (kind, count) = (table.scalar().into(), table.components() as u32);
+        Some(Value::Table { table: index as u32, kind, length: table.len() as u32, count })
     }
 
     /// The value of a variable now.
@@ -190,13 +192,11 @@ impl<'m> Compiler<'m> {
         base: Value,
         index: Slot,
     ) -> Result<Value, FormError> {
-        if let Value::Table { table, length } = base {
-            let last = self.integer(length.saturating_sub(1));
-            let index = self.integer2(I2::MinUnsigned, index, last)?;
-            return Ok(Value::Row { table, kind: Kind::F, index, offset: 0, count: 1 });
-        }
         let inner = self.pointee(inner).into_owned();
-        let (stride, length) = self.stride(&inner)?;
+        let (stride, length) = match base {
+            Value::Table { length, count, .. } => (count as usize, length as usize),
+            _ => self.stride(&inner)?,
+        };
         let last = self.integer((length as u32).saturating_sub(1));
         let mut at = self.integer2(I2::MinUnsigned, index, last)?;
         if stride != 1 {
@@ -227,7 +227,9 @@ impl<'m> Compiler<'m> {
                 };
                 Ok(Value::Place(Place { count: stride, index: Some(index), ..place }))
             }
-            Value::Table { .. } => Err(self.mixed()),
+            Value::Table { table, kind, count, .. } => {
+                Ok(Value::Row { table, kind, index: at, offset: 0, count })
+            }
         }
     }
 
