@@ -82,7 +82,8 @@ fn what_the_text_does_not_declare_so_is_refused() {
 }
 
 fn emitted(form: &Form, language: Language, style: TableStyle) -> Emitted {
-    let values = BTreeMap::from([("gain".to_owned(), 0.1_f32)]);
+    let gain = form.parameters().iter().map(|parameter| (parameter.name.clone(), 0.1_f32));
+    let values: BTreeMap<String, f32> = gain.collect();
     emit_with_tables(form, &values, language, style, "made for a test").expect("emits")
 }
 
@@ -145,7 +146,7 @@ fn bound_tables_are_declared_in_every_language() {
                 Language::Wgsl => "@group(1) @binding(1) \nvar<storage> packed: array<u32>;",
                 Language::Glsl => "layout(std430, binding = 1) readonly buffer",
                 Language::Hlsl => "ByteAddressBuffer packed : register(t1, space1);",
-                _ => "device type_2 const& packed",
+                _ => "device type_4 const& packed",
             };
             assert_eq!(text.contains(declared), style == TableStyle::Bound, "{text}");
             match language {
