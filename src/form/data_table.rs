@@ -354,7 +354,7 @@ mod tests {
     #[test]
     fn entries_are_of_any_type_and_may_be_named() -> Result<(), FormError> {
         let named = vec!["A"; 32].join(", ");
-        let vectors = vec!["vec3(1.0, 2.0, A)", "vec3(A)"].repeat(16).join(", ");
+        let vectors = ["vec3(1.0, 2.0, A)", "vec3(A)"].repeat(16).join(", ");
         let source = format!(
             "const A: f32 = -0.25; const T = array<f32, 32>({named});\n\
              const N = array<i32, 32>({}); const V = array<vec3<f32>, 32>({vectors});\n\

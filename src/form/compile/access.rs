@@ -1,6 +1,6 @@
 //! Variables, indexing and constants.
 
-use naga::{AddressSpace, Expression, Handle, TypeInner};
+use naga::{AddressSpace, Arena, Expression, Handle, TypeInner};
 
 use super::Compiler;
 use super::body::Frame;
@@ -12,31 +12,16 @@ use crate::form::program::{Instr, Kind, Reg, Slot};
 impl<'m> Compiler<'m> {
     /// The scalars of a module-scope constant expression; `None` if it depends on an override.
     pub(super) fn constant_global(&self, handle: Handle<Expression>) -> Option<Vec<Scalar>> {
-        match self.module.global_expressions[handle] {
-            Expression::Literal(literal) => Some(vec![scalar_of(literal)?]),
-            Expression::Constant(constant) => {
-                self.constant_global(self.module.constants[constant].init)
-            }
-            Expression::ZeroValue(ty) => {
-                Some(self.kinds_of(ty).ok()?.into_iter().map(Scalar::zero).collect())
-            }
-            Expression::Splat { size, value } => {
-                Some(self.constant_global(value)?.repeat(size as usize))
-            }
-            Expression::Compose { ref components, .. } => {
-                let mut scalars = Vec::new();
-                for &component in components {
-                    scalars.extend(self.constant_global(component)?);
-                }
-                Some(scalars)
-            }
-            _ => None,
-        }
+        self.constant(&self.module.global_expressions, handle)
     }
 
-    /// The scalars of an array written out in a function, if all of them are known.
-    fn constant_local(&self, frame: &Frame<'m>, handle: Handle<Expression>) -> Option<Vec<Scalar>> {
-        match frame.expressions[handle] {
+    /// The scalars of a constant expression of a function or of the module.
+    fn constant(
+        &self,
+        expressions: &Arena<Expression>,
+        handle: Handle<Expression>,
+    ) -> Option<Vec<Scalar>> {
+        match expressions[handle] {
             Expression::Literal(literal) => Some(vec![scalar_of(literal)?]),
             Expression::Constant(constant) => {
                 self.constant_global(self.module.constants[constant].init)
@@ -45,12 +30,12 @@ impl<'m> Compiler<'m> {
                 Some(self.kinds_of(ty).ok()?.into_iter().map(Scalar::zero).collect())
             }
             Expression::Splat { size, value } => {
-                Some(self.constant_local(frame, value)?.repeat(size as usize))
+                Some(self.constant(expressions, value)?.repeat(size as usize))
             }
             Expression::Compose { ref components, .. } => {
                 let mut scalars = Vec::new();
                 for &component in components {
-                    scalars.extend(self.constant_local(frame, component)?);
+                    scalars.extend(self.constant(expressions, component)?);
                 }
                 Some(scalars)
             }
@@ -70,12 +55,7 @@ impl<'m> Compiler<'m> {
             _ => return None,
         };
         let TypeInner::Array { .. } = self.module.types[ty].inner else { return None };
-        let scalars = if frame.info.is_some() {
-            self.constant_local(frame, handle)?
-        } else {
-            self.constant_global(handle)?
-        };
-        Some(Value::Array(scalars))
+        Some(Value::Array(self.constant(frame.expressions, handle)?))
     }
 
     /// The registers of a `var<private>`; its initial value is stored at the start of the program.
