@@ -4,10 +4,11 @@
 
 use std::f32::consts::PI;
 use std::time::{Duration, Instant};
-use striae::form::Form;
+use striae::form::{DataTable, Form, FormError, Input};
 use striae::gpu::{
-    Cost, Device, GpuError, TimedForm, Timing, TimingOptions, list_adapters, required, time,
+    Device, GpuError, TimedForm, Timing, TimingOptions, list_adapters, required, time,
 };
+use striae::numeric::measured::Measured;
 use striae::registry::Registry;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -275,13 +276,18 @@ fn costs_are_measured_against_the_empty_loop() -> Outcome {
     let product =
         Form::parse("p.wgsl", "fn f(p: vec3<f32>) -> f32 { return p.x * p.y + p.z; }", "f")?;
     let wide = [spread(-10.0, 10.0, 20_000)];
-    let three = [wide[0].clone(), wide[0].clone(), wide[0].clone()];
+    let wide = [Input::from(&wide[0])];
+    let three = [wide[0]; 3];
+    let counter: Vec<u32> = (0..20_000).map(|i| i * 200_003).collect();
+    let counters = [Input::from(&counter), wide[0]];
+    let random = Form::parse("pcg.wgsl", PCG, "f")?;
     let published_values = [0.66142739_f64 as f32, 0.38272292_f64 as f32];
     let form = |name, form, parameters, inputs| TimedForm { name, form, parameters, inputs };
     let forms = [
         form("published", &published, &published_values[..], &wide[..]),
         form("rational", &rational, &[], &wide),
         form("product", &product, &[], &three),
+        form("random", &random, &[], &counters),
         form("mistaken", &published, &[], &wide),
     ];
     let options = TimingOptions { baseline: Some("published".to_owned()), ..Default::default() };
@@ -293,11 +299,12 @@ fn costs_are_measured_against_the_empty_loop() -> Outcome {
     }
     let net = |name: &str| {
         let timing = timings.iter().find(|timing| timing.name == name)?;
-        timing.measurement().map(|measurement| measurement.net_ns.median)
+        timing.cost.value().map(|measurement| measurement.net_ns.median)
     };
     // Some sixty operations cost more than nothing, and more than two.
     assert!(net("published") > Some(0.0) && net("published") > net("product"));
     assert!(net("rational") > Some(0.0));
+    assert!(net("random") > Some(0.0));
     assert_eq!(net("mistaken"), None);
     Ok(())
 }
@@ -307,26 +314,143 @@ fn costs_are_measured_against_the_empty_loop() -> Outcome {
 fn a_form_that_takes_too_long_is_not_measured() -> Outcome {
     let Some(device) = device()? else { return Ok(()) };
     let form = Form::parse("rational.wgsl", RATIONAL, "f")?;
-    let inputs = [spread(-10.0, 10.0, 1000)];
+    let x = spread(-10.0, 10.0, 1000);
+    let inputs = [Input::from(&x)];
     let timed = TimedForm { name: "rational", form: &form, parameters: &[], inputs: &inputs };
     let options = TimingOptions { rounds: 9, budget_s: 0.5, ..Default::default() };
     let hasty = TimingOptions { compile_limit_s: 0.0, ..options.clone() };
     let timings = time(&device, &[timed, timed], &hasty)?;
     assert_eq!(timings.len(), 2);
     for timing in timings {
-        let Cost::NotMeasured { reason } = timing.cost else {
+        let Measured::NotMeasured(reason) = timing.cost else {
             return Err(format!("{timing:?}").into());
         };
         assert_eq!(reason, "the device did not compile and run it once within 0.0 s");
     }
     let timings = time(&device, &[timed], &options)?;
-    assert!(timings[0].measurement().is_some(), "{timings:?}");
+    assert!(timings[0].cost.value().is_some(), "{timings:?}");
+    Ok(())
+}
+
+/// PCG-RXS-M-XS of a counter and a stream, as the top 24 bits of it on [0, 1): O'Neill,
+/// "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms", 2014.
+const PCG: &str = "
+fn pcg(seed: u32) -> u32 {
+    let state = seed * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+fn f(counter: u32, scale: f32) -> f32 {
+    return f32(pcg(counter) >> 8u) * exp2(-24.0) * scale;
+}";
+
+/// Integers go to the device whole: the hash of every counter is that of the lanes, to the bit.
+#[test]
+fn integer_arguments_are_exact_on_the_device() -> Outcome {
+    let Some(device) = device()? else { return Ok(()) };
+    let source = PCG.replace(" * exp2(-24.0) * scale", " + scale");
+    let form = Form::parse("pcg.wgsl", &source, "f")?;
+    let counters: Vec<u32> = (0..4096_u32).map(|i| u32::MAX - i * 1_048_573).collect();
+    let zeros = vec![0.0_f32; counters.len()];
+    let inputs = [Input::from(&counters), Input::from(&zeros)];
+    let kernel = device.compile(&form, &[])?;
+    let got = kernel.evaluate_inputs(&inputs)?;
+    assert_eq!(got, form.eval_f32_inputs(&[], &inputs)?);
+    // A column of f64 holds every u32 too.
+    let wide: Vec<f64> = counters.iter().map(|&counter| counter.into()).collect();
+    assert_eq!(got, kernel.evaluate_inputs(&[Input::from(&wide), inputs[1]])?);
+    let distinct: std::collections::BTreeSet<u32> = got[0].iter().map(|v| v.to_bits()).collect();
+    assert!(distinct.len() > 4000, "{}", distinct.len());
+    let refused = kernel.evaluate(&[vec![1.0, 2.5], vec![0.0; 2]]);
+    let Err(GpuError::Form(error @ FormError::Input { row: 1, .. })) = refused else {
+        return Err(format!("{refused:?}").into());
+    };
+    let text = "pcg.wgsl: function `f`: argument `counter`, row 1: expected a whole number from 0 \
+                to 4294967295, got 2.5";
+    assert_eq!(error.to_string(), text);
+    Ok(())
+}
+
+/// Tables of every type beside a constant array of the text: one list for lanes and device.
+#[test]
+fn typed_tables_agree_with_the_lanes() -> Outcome {
+    let Some(device) = device()? else { return Ok(()) };
+    let constants: Vec<String> = (0..40).map(|i| format!("{i}.25")).collect();
+    let source = format!(
+        "@group(1) @binding(0) var<storage, read> quads: array<vec4<f32>>;\n\
+         @group(1) @binding(1) var<storage, read> triples: array<vec3<f32>>;\n\
+         @group(1) @binding(2) var<storage, read> halves: array<u32>;\n\
+         @group(1) @binding(3) var<storage, read> steps: array<i32>;\n\
+         const LONG = array<f32, 40>({});\n\
+         fn f(i: i32, at: vec2<u32>) -> vec3<f32> {{\n\
+         let pair = unpack2x16float(halves[at.x]);\n\
+         return triples[i] * pair.x + quads[at.y].wyx + vec3(f32(steps[i]), LONG[at.x], pair.y);\n}}",
+        constants.join(", ")
+    );
+    let quads: Vec<[f32; 4]> = (0..50).map(|i| [0, 1, 2, 3].map(|c| (4 * i + c) as f32)).collect();
+    let triples: Vec<[f32; 3]> = (0..40).map(|i| [0, 1, 2].map(|c| (3 * i + c) as f32)).collect();
+    // The first eight are sixteenths that f16 holds, then its smallest number and its largest.
+    let halves: Vec<f32> = (0..60)
+        .map(|i| match i {
+            0..50 => i as f32 / 16.0,
+            50..55 => 2.0_f32.powi(-24),
+            _ => -65504.0,
+        })
+        .collect();
+    let steps: Vec<i32> = (0..40).map(|i| i * i - 300).collect();
+    let tables = vec![
+        DataTable::vectors("quads", &quads),
+        DataTable::vectors("triples", &triples),
+        DataTable::f16_pairs("halves", &halves),
+        DataTable::signed("steps", &steps),
+    ];
+    let form = Form::parse_with("tables.wgsl", &source, "f", tables)?;
+    let names: Vec<&str> = form.tables().iter().map(DataTable::name).collect();
+    assert_eq!(names, ["quads", "triples", "halves", "steps", "LONG"]);
+    assert_eq!(form.input_columns(), ["i", "at_x", "at_y"]);
+    let rows = || 0..40_u32;
+    let i: Vec<i32> = rows().map(|row| row as i32).collect();
+    let first: Vec<u32> = rows().map(|row| row * 7 % 30).collect();
+    let second: Vec<u32> = rows().map(|row| row * 11 % 50).collect();
+    let inputs = [Input::from(&i), Input::from(&first), Input::from(&second)];
+    let lanes = form.eval_f32_inputs(&[], &inputs)?;
+    assert_eq!(device.compile(&form, &[])?.evaluate_inputs(&inputs)?, lanes);
+    // Row 2: triples[2] = (6, 7, 8), halves[14] = (28, 29) / 16, quads[22] = (88, 89, 90, 91).
+    let expected =
+        [6.0 * 1.75 + 91.0 - 296.0, 7.0 * 1.75 + 89.0 + 14.25, 8.0 * 1.75 + 88.0 + 1.8125];
+    assert_eq!([lanes[0][2], lanes[1][2], lanes[2][2]], expected);
+    Ok(())
+}
+
+/// A kernel is compiled once per device, whatever the numbers of its tables.
+#[test]
+fn a_kernel_is_compiled_once() -> Outcome {
+    let Some(device) = device()? else { return Ok(()) };
+    let text = "@group(1) @binding(0) var<storage, read> t: array<f32>;\n\
+                override gain: f32 = 2.0;\nfn f(x: f32) -> f32 { return gain * t[u32(x)]; }";
+    let with = |numbers: [f32; 2]| {
+        Form::parse_with("t.wgsl", text, "f", vec![DataTable::new("t", numbers)])
+    };
+    let evaluate = |form: &Form, gain: f32| {
+        device
+            .compile(form, &[gain])?
+            .evaluate(&[vec![0.0, 1.0]])
+            .map(|mut columns| columns.remove(0))
+    };
+    let form = with([1.0, 3.0])?;
+    assert_eq!(evaluate(&form, 2.0)?, [2.0, 6.0]);
+    assert_eq!(evaluate(&form, 2.0)?, [2.0, 6.0]);
+    assert_eq!(evaluate(&with([5.0, 7.0])?, 2.0)?, [10.0, 14.0]);
+    let count = device.pipelines();
+    assert_eq!((count.made, count.reused), (1, 2));
+    assert_eq!(evaluate(&form, 4.0)?, [4.0, 12.0]);
+    assert_eq!(device.pipelines().made, 2);
     Ok(())
 }
 
 fn print(timing: &Timing) {
     match &timing.cost {
-        Cost::Measured(measured) => {
+        Measured::Value(measured) => {
             let (net, empty) = (measured.net_ns, measured.empty_ns.median);
             println!(
                 "{:10} net {:.3} ns [{:.3}, {:.3}], empty loop {empty:.3} ns, ratio {:?}, {:?}",
@@ -338,7 +462,7 @@ fn print(timing: &Timing) {
                 measured.clock,
             );
         }
-        Cost::NotMeasured { reason } => println!("{:10} not measured: {reason}", timing.name),
+        Measured::NotMeasured(reason) => println!("{:10} not measured: {reason}", timing.name),
     }
 }
 

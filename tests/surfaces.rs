@@ -170,7 +170,7 @@ fn tables_of_a_form_must_be_declared() {
     let text = "@group(1) @binding(0) var<storage, read> t: array<f32>;\n\
                 fn f(x: f32) -> f32 { return t[u32(x)] + t[1]; }";
     let form = |name: &str, values: &[f32]| {
-        Form::parse_with("f.wgsl", text, "f", vec![DataTable::new(name, values.to_vec())])
+        Form::parse_with("f.wgsl", text, "f", vec![DataTable::new(name, values)])
     };
     let good = form("t", &[1.0, 2.0, 4.0]).expect("a form");
     // Beyond the end the last entry is read, as on devices.

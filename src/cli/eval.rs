@@ -9,6 +9,7 @@ use super::context::Context;
 use super::points::Points;
 use super::{Ending, output};
 use crate::effect::{Candidate, Reference};
+use crate::form::Input;
 use crate::gpu::Device;
 use crate::table::store::atomic_write;
 
@@ -131,23 +132,17 @@ fn of_candidate(
     let names: Vec<(String, Option<&str>)> =
         form.input_columns().into_iter().map(|name| (name, None)).collect();
     let columns = points.columns(&names)?;
-    let narrow = || -> Vec<Vec<f32>> {
-        columns.iter().map(|column| column.iter().map(|value| *value as f32).collect()).collect()
-    };
+    let inputs: Vec<Input<'_>> = columns.iter().map(Input::from).collect();
     let values: Vec<Vec<String>> = match precision {
         Precision::F64 => {
             let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
             texts(&form.eval_f64(&candidate.constants, &inputs)?)
         }
-        Precision::F32 => {
-            let narrow = narrow();
-            let inputs: Vec<&[f32]> = narrow.iter().map(Vec::as_slice).collect();
-            texts(&form.eval_f32(&candidate.constants_f32, &inputs)?)
-        }
+        Precision::F32 => texts(&form.eval_f32_inputs(&candidate.constants_f32, &inputs)?),
         Precision::Gpu => {
             let device = Device::open().context("--precision gpu")?;
             let kernel = device.compile(form, &candidate.constants_f32)?;
-            texts(&kernel.evaluate(&narrow())?)
+            texts(&kernel.evaluate_inputs(&inputs)?)
         }
     };
     Ok(form.output_columns().into_iter().zip(values).collect())

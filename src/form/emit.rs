@@ -13,7 +13,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Constant, Expression, Handle, Literal, Module, ShaderStage, Span, Statement};
 
 use super::lanes::override_values;
-use super::{Form, FormError, load};
+use super::{Form, FormError, LEAST_TABLE_ENTRIES, TABLE_GROUP, load};
 
 /// A language that forms can be emitted in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -66,6 +66,19 @@ impl Emitted {
     }
 }
 
+/// How the tables given beside a text are written. Constant arrays of the text stay what they are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum TableStyle {
+    /// Baked if each has fewer than [`LEAST_TABLE_ENTRIES`] entries, else bound.
+    #[default]
+    BySize,
+    /// As read-only storage buffers at the bindings of the text, which the engine fills. In Metal
+    /// they are arguments of the function.
+    Bound,
+    /// As constant arrays with their numbers.
+    Baked,
+}
+
 /// Writes `form` in `language` with its parameters set to `values`; a parameter that `values` does
 /// not name keeps its default. `header` goes on top of text output as comment lines.
 ///
@@ -78,12 +91,44 @@ pub fn emit(
     language: Language,
     header: &str,
 ) -> Result<Emitted, FormError> {
+    emit_with_tables(form, values, language, TableStyle::default(), header)
+}
+
+/// Writes `form` as [`emit`] does, with the tables given beside its text in the style asked for.
+///
+/// # Errors
+/// As [`emit`]; [`FormError::Emit`] also if a table to bake holds what no text can.
+pub fn emit_with_tables(
+    form: &Form,
+    values: &BTreeMap<String, f32>,
+    language: Language,
+    tables: TableStyle,
+    header: &str,
+) -> Result<Emitted, FormError> {
     let refuse = |what: String| FormError::Emit {
         origin: form.origin().to_owned(),
         function: form.function().to_owned(),
         language: language.name().to_owned(),
         what,
     };
+    let given = form.given_tables();
+    let bake = match tables {
+        TableStyle::BySize => given.iter().all(|table| table.len() < LEAST_TABLE_ENTRIES),
+        TableStyle::Bound => false,
+        TableStyle::Baked => true,
+    };
+    if bake && !given.is_empty() {
+        let text = form.baked_source().map_err(refuse)?;
+        let baked = Form::parse(form.origin(), &text, form.function())?;
+        return emit_with_tables(&baked, values, language, tables, header);
+    }
+    let bound = given.iter().enumerate().map(|(binding, table)| {
+        let (name, entry, entries) = (table.name(), table.entry_type(), table.len());
+        format!(
+            "\nTable {name}: {entries} entries of {entry}, group {TABLE_GROUP}, binding {binding}"
+        )
+    });
+    let header = &format!("{header}{}", bound.collect::<String>());
     let parameters = parameter_values(form, values).map_err(refuse)?;
     load::guarded(form.origin(), || {
         let module = baked(form, &parameters).map_err(refuse)?;
@@ -236,6 +281,7 @@ fn write(
         let options = glsl::Options {
             version: glsl::Version::Desktop(450),
             writer_flags: glsl::WriterFlags::empty(),
+            binding_map: bindings(module),
             ..glsl::Options::default()
         };
         let pipeline = glsl::PipelineOptions {
@@ -280,6 +326,12 @@ fn write(
         }
     };
     Ok(Emitted::Text(commented(header, &text)))
+}
+
+/// The bindings of the module as those of GLSL, which has no groups.
+fn bindings(module: &Module) -> glsl::BindingMap {
+    let bound = module.global_variables.iter().filter_map(|(_, variable)| variable.binding);
+    bound.filter_map(|bound| Some((bound, u8::try_from(bound.binding).ok()?))).collect()
 }
 
 /// HLSL with braces around the elements of constant arrays.

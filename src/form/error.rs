@@ -1,7 +1,7 @@
 //! Why a form could not be loaded, evaluated or emitted.
 
 /// What went wrong with a form. Every message names the file, and the line where there is one.
-#[derive(Debug, Clone, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FormError {
     /// The text does not parse or validate; `report` shows file, line and a caret.
     #[error("{report}")]
@@ -58,6 +58,24 @@ pub enum FormError {
         function: String,
         /// Expected and got.
         what: String,
+    },
+    /// A number that an integer argument does not take exactly.
+    #[error(
+        "{origin}: function `{function}`: argument `{argument}`, row {row}: expected {expected}, got {got}"
+    )]
+    Input {
+        /// File the text came from.
+        origin: String,
+        /// The function.
+        function: String,
+        /// The argument, with its component if it is a vector.
+        argument: String,
+        /// Row of the column, from 0.
+        row: usize,
+        /// What the argument takes.
+        expected: &'static str,
+        /// The number.
+        got: f64,
     },
     /// A loop that did not end for every lane within the stated bound.
     #[error("{origin}:{line}: this loop did not end within {limit}")]

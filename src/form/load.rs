@@ -126,6 +126,17 @@ fn check_size(origin: &str, source: &str) -> Result<(), FormError> {
     Ok(())
 }
 
+/// Where the declaration begins whose keyword is at `keyword`: before its attributes.
+pub(super) fn start_of_declaration(source: &str, keyword: usize) -> usize {
+    let before = code(source).take_while(|&(at, _)| at < keyword);
+    let start = before.fold(None, |start, (at, byte)| match byte {
+        b';' | b'}' => None,
+        _ if byte.is_ascii_whitespace() => start,
+        _ => start.or(Some(at)),
+    });
+    start.unwrap_or(keyword)
+}
+
 /// The bytes outside comments, with their places.
 fn code(source: &str) -> impl Iterator<Item = (usize, u8)> {
     let bytes = source.as_bytes();

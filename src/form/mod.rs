@@ -21,6 +21,8 @@ mod cost;
 mod data_table;
 pub mod emit;
 mod error;
+mod half;
+mod input;
 pub mod lanes;
 mod load;
 mod operation;
@@ -29,10 +31,13 @@ mod program;
 use std::sync::Arc;
 
 pub use cost::OpCount;
-pub use data_table::{DataTable, GROUP as TABLE_GROUP};
+pub use data_table::{DataTable, GROUP as TABLE_GROUP, LEAST_ENTRIES as LEAST_TABLE_ENTRIES};
 pub use error::FormError;
+pub use input::{Input, ScalarType};
+pub(crate) use load::guarded;
 pub use load::{MAX_BRACKET_NESTING, MAX_ELSE, MAX_OPERATORS, MAX_SOURCE_BYTES};
 
+use data_table::Tables;
 use lanes::{DualEvaluator, Evaluator};
 
 /// What a user may fit in a form: an `override` constant of type f32.
@@ -49,6 +54,8 @@ pub struct Parameter {
 pub struct Argument {
     /// Name in the text.
     pub name: String,
+    /// Type of its scalars.
+    pub scalar: ScalarType,
     /// Number of scalar components: 1 for a scalar, 2 to 4 for a vector.
     pub components: usize,
 }
@@ -64,7 +71,7 @@ struct Inner {
     origin: String,
     source: String,
     function: String,
-    tables: Vec<DataTable>,
+    tables: Tables,
     module: naga::Module,
     compiled: compile::Compiled,
 }
@@ -84,9 +91,10 @@ impl Form {
         Self::parse_with(origin, source, function, Vec::new())
     }
 
-    /// The same for a text that reads storage buffers: `tables` gives the numbers of
-    /// `@group(1) @binding(i) var<storage, read> NAME: array<f32>`, one entry per binding in their
-    /// order. On the device they are buffers, as in an engine; lanes read the same numbers.
+    /// Parses a text that reads storage buffers: `tables` gives the numbers of each
+    /// `@group(1) @binding(i) var<storage, read> NAME: array<T>`, in the order of the bindings. T is
+    /// f32, i32, u32 or a vector of them. On the device they are buffers, as in an engine; lanes
+    /// read the same numbers.
     ///
     /// # Errors
     /// As [`Form::parse`]; [`FormError::Table`] if a table is not declared so, or is empty.
@@ -96,11 +104,11 @@ impl Form {
         function: &str,
         tables: Vec<DataTable>,
     ) -> Result<Self, FormError> {
-        let (module, compiled) = load::guarded(origin, || {
+        let (module, tables, compiled) = load::guarded(origin, || {
             let (module, info) = load::module(origin, source)?;
-            data_table::check(origin, &module, &tables)?;
+            let tables = Tables::of(origin, source, &module, tables)?;
             let compiled = compile::compile(origin, source, &module, &info, function, &tables)?;
-            Ok((module, compiled))
+            Ok((module, tables, compiled))
         })?;
         let inner = Inner {
             origin: origin.to_owned(),
@@ -121,9 +129,23 @@ impl Form {
     pub fn source(&self) -> &str {
         &self.inner.source
     }
-    /// The tables given beside the text, in the order of their bindings.
+    /// The tables, in the order of their bindings on the device: those given beside the text, then
+    /// the constant arrays of the text from [`LEAST_TABLE_ENTRIES`] entries on.
     pub fn tables(&self) -> &[DataTable] {
-        &self.inner.tables
+        &self.inner.tables.list
+    }
+    /// The tables given beside the text.
+    fn given_tables(&self) -> &[DataTable] {
+        let Tables { list, given, .. } = &self.inner.tables;
+        list.get(..*given).unwrap_or_default()
+    }
+    /// The text with the given tables as constant arrays, or why one of them cannot be.
+    fn baked_source(&self) -> Result<String, String> {
+        self.inner.tables.baked(&self.inner.source, &self.inner.module)
+    }
+    /// The text with a storage buffer for each of [`Form::tables`]; lines keep their numbers.
+    pub(crate) fn device_source(&self) -> &str {
+        self.inner.tables.device_text.as_deref().unwrap_or(&self.inner.source)
     }
     /// Name of the function.
     pub fn function(&self) -> &str {
@@ -145,6 +167,11 @@ impl Form {
     pub fn input_columns(&self) -> Vec<String> {
         self.arguments().iter().flat_map(|a| columns(&a.name, a.components)).collect()
     }
+    /// Type of every scalar input, in the order of [`Form::input_columns`].
+    pub fn input_types(&self) -> Vec<ScalarType> {
+        let of = |a: &Argument| std::iter::repeat_n(a.scalar, a.components);
+        self.arguments().iter().flat_map(of).collect()
+    }
     /// One column name per scalar output: `value`, or `value_x`, `value_y` …
     pub fn output_columns(&self) -> Vec<String> {
         columns("value", self.result_components())
@@ -154,8 +181,8 @@ impl Form {
     /// entry of [`Form::input_columns`], all of one length; returns one vector per output column.
     ///
     /// # Errors
-    /// [`FormError::Shape`] if a count does not fit, [`FormError::Unbounded`] if a loop does not
-    /// end within [`lanes::MAX_LOOP_ITERATIONS`] or [`lanes::MAX_CHUNK_COST`].
+    /// [`FormError::Shape`] if a count does not fit, [`FormError::Input`] if an integer argument
+    /// does not take a number exactly, [`FormError::Unbounded`] if a loop does not end within [`lanes::MAX_LOOP_ITERATIONS`] or [`lanes::MAX_CHUNK_COST`].
     pub fn eval_f64(
         &self,
         parameters: &[f64],
@@ -177,6 +204,21 @@ impl Form {
     ) -> Result<Vec<Vec<f32>>, FormError> {
         let mut values = Vec::new();
         self.evaluator_f32().eval_into(parameters, inputs, &mut values)?;
+        Ok(values)
+    }
+
+    /// Evaluates in f32 at columns of any type: what f32 does not hold exactly, as large integers,
+    /// comes in a column of its own type or of f64.
+    ///
+    /// # Errors
+    /// As [`Form::eval_f64`].
+    pub fn eval_f32_inputs(
+        &self,
+        parameters: &[f32],
+        inputs: &[Input<'_>],
+    ) -> Result<Vec<Vec<f32>>, FormError> {
+        let mut values = Vec::new();
+        self.evaluator_f32().eval_inputs_into(parameters, inputs, &mut values)?;
         Ok(values)
     }
 
@@ -218,7 +260,7 @@ impl Form {
         OpCount::of(self.program())
     }
 
-    fn module(&self) -> &naga::Module {
+    pub(crate) fn module(&self) -> &naga::Module {
         &self.inner.module
     }
 
@@ -228,6 +270,31 @@ impl Form {
 
     pub(crate) fn program(&self) -> &program::Program {
         &self.inner.compiled.program
+    }
+
+    /// Type of scalar input `at`.
+    pub(crate) fn input_type(&self, at: usize) -> ScalarType {
+        let of = |a: &Argument| std::iter::repeat_n(a.scalar, a.components);
+        self.arguments().iter().flat_map(of).nth(at).unwrap_or(ScalarType::F32)
+    }
+
+    /// The bits of scalar input `at`, which is of type `scalar`, in one row of its column.
+    pub(crate) fn word(
+        &self,
+        at: usize,
+        scalar: ScalarType,
+        column: Input<'_>,
+        row: usize,
+    ) -> Result<u32, FormError> {
+        let got = column.at(row);
+        scalar.word(got).ok_or_else(|| FormError::Input {
+            origin: self.origin().to_owned(),
+            function: self.function().to_owned(),
+            argument: self.input_column(at),
+            row,
+            expected: scalar.numbers(),
+            got,
+        })
     }
 
     /// Name of scalar input `at`.

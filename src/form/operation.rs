@@ -71,6 +71,8 @@ pub(crate) enum IToF {
     Signed,
     Unsigned,
     Bits,
+    /// The low 16 bits as binary16.
+    Half,
 }
 
 /// Integer to integer, one argument.

@@ -7,6 +7,7 @@
 
 use std::sync::Arc;
 
+use super::ScalarType;
 use super::operation::{B2, Compare, F1, F2, FToI, I1, I2, IToF};
 
 /// Index into the register file of one kind.
@@ -24,11 +25,20 @@ pub(crate) enum Reg {
 }
 
 /// Kind of a scalar.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Kind {
     F,
     I,
     B,
+}
+
+impl From<ScalarType> for Kind {
+    fn from(scalar: ScalarType) -> Self {
+        match scalar {
+            ScalarType::F32 => Self::F,
+            ScalarType::I32 | ScalarType::U32 => Self::I,
+        }
+    }
 }
 
 /// One instruction over all lanes.
@@ -199,14 +209,6 @@ pub(crate) struct Case {
     pub(crate) falls_through: bool,
 }
 
-/// A constant array, flattened to scalars.
-#[derive(Debug, Clone)]
-pub(crate) enum Table {
-    F(Arc<[f32]>),
-    I(Vec<u32>),
-    B(Vec<bool>),
-}
-
 /// A compiled form.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Program {
@@ -221,11 +223,12 @@ pub(crate) struct Program {
     pub(crate) float_constants: Vec<(Slot, f32)>,
     pub(crate) integer_constants: Vec<(Slot, u32)>,
     pub(crate) boolean_constants: Vec<(Slot, bool)>,
-    pub(crate) tables: Vec<Table>,
+    /// The scalars of tables and constant arrays, by their bits; a truth value is 0 or 1.
+    pub(crate) tables: Vec<Arc<[u32]>>,
     /// Registers of the parameters, in their order.
     pub(crate) parameters: Vec<Slot>,
     /// Registers of the scalar inputs, in their order.
-    pub(crate) inputs: Vec<Slot>,
+    pub(crate) inputs: Vec<Reg>,
     /// Registers of the scalar outputs, in their order.
     pub(crate) outputs: Vec<Slot>,
 }

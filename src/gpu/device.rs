@@ -2,6 +2,7 @@
 
 use super::adapter::{self, AdapterDescription};
 use super::error::{GpuError, NoDevice};
+use super::pipelines::{PipelineCount, Pipelines};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -17,6 +18,7 @@ pub struct Device {
     pub(super) queue: wgpu::Queue,
     pub(super) bindings: wgpu::BindGroupLayout,
     pub(super) layout: wgpu::PipelineLayout,
+    pub(super) pipelines: Pipelines,
     description: AdapterDescription,
     faults: Arc<Mutex<Faults>>,
 }
@@ -65,12 +67,18 @@ impl Device {
             bind_group_layouts: &[Some(&bindings)],
             immediate_size: 0,
         });
-        Ok(Self { raw, queue, bindings, layout, description, faults })
+        let pipelines = Pipelines::default();
+        Ok(Self { raw, queue, bindings, layout, pipelines, description, faults })
     }
 
     /// Which device this is; goes into every output that holds a number measured on it.
     pub fn description(&self) -> &AdapterDescription {
         &self.description
+    }
+
+    /// How many kernels were compiled so far, and how often one was found compiled.
+    pub fn pipelines(&self) -> PipelineCount {
+        self.pipelines.count()
     }
 
     /// Runs `operation` and returns what it returns, or the first error that wgpu reports during it.
@@ -149,7 +157,8 @@ impl Device {
         Ok(copy)
     }
 
-    fn check_faults(&self) -> Result<(), GpuError> {
+    /// What the driver has reported since, if anything.
+    pub(super) fn check_faults(&self) -> Result<(), GpuError> {
         let mut faults = self.faults.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(reason) = &faults.lost {
             return Err(GpuError::Lost(reason.clone()));
@@ -197,6 +206,7 @@ fn bindings(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::form::Form;
     use crate::gpu::program::{Program, Purpose};
 
     /// A destroyed device stands in for one that the driver took away.
@@ -207,7 +217,7 @@ mod tests {
             return Ok(());
         };
         let source = "fn f(x: f32) -> f32 { return x; }";
-        let program = Program::from_text("f.wgsl", source, "f", &[], Purpose::Evaluate)?;
+        let program = Program::new(&Form::parse("f.wgsl", source, "f")?, &[], Purpose::Evaluate)?;
         let kernel = device.kernel(program.clone())?;
         assert_eq!(kernel.evaluate(&[vec![1.0]])?, [[1.0]]);
         device.raw.destroy();

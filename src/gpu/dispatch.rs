@@ -3,7 +3,8 @@
 use super::device::Device;
 use super::error::GpuError;
 use super::program::{Pipeline, Program, Purpose, WORKGROUP};
-use crate::form::Form;
+use crate::form::{Form, Input};
+use std::borrow::Cow;
 
 /// Most points per dispatch: bounds the memory of a chunk and the time of a dispatch.
 const CHUNK_POINTS: u64 = 1 << 22;
@@ -20,13 +21,12 @@ impl Device {
     /// Compiles `form` for this device.
     ///
     /// `parameters`: one value per entry of [`Form::parameters`], set as pipeline constants; the
-    /// other `override` constants of the text keep their defaults. Module-scope constant arrays of
-    /// 32 or more f32 are read from storage buffers, since drivers need minutes to compile them
-    /// from the text; other large arrays may still take that long.
+    /// other `override` constants of the text keep their defaults. The tables of the form
+    /// ([`Form::tables`]) are read from storage buffers. A kernel that this device has compiled
+    /// before, from the same text and values, is not compiled again.
     ///
     /// # Errors
-    /// [`GpuError`] if the number of values is wrong, an argument or the result is not made of
-    /// f32, or the device's compiler rejects the kernel.
+    /// [`GpuError`] if the number of values is wrong, or the device's compiler rejects the kernel.
     pub fn compile(&self, form: &Form, parameters: &[f32]) -> Result<Kernel<'_>, GpuError> {
         self.kernel(Program::new(form, parameters, Purpose::Evaluate)?)
     }
@@ -40,7 +40,7 @@ impl Device {
 impl Kernel<'_> {
     /// Where the text comes from.
     pub fn origin(&self) -> &str {
-        &self.program.origin
+        self.program.form.origin()
     }
 
     /// Evaluates the form at every row of `inputs`.
@@ -52,8 +52,16 @@ impl Kernel<'_> {
     /// # Errors
     /// [`GpuError`] if the columns do not match the form, or the device fails.
     pub fn evaluate(&self, inputs: &[Vec<f32>]) -> Result<Vec<Vec<f32>>, GpuError> {
+        self.evaluate_inputs(&inputs.iter().map(Input::from).collect::<Vec<_>>())
+    }
+
+    /// Evaluates the form at every row of columns of any type; otherwise as [`Kernel::evaluate`].
+    ///
+    /// # Errors
+    /// As [`Kernel::evaluate`]; [`GpuError::Form`] if an integer argument does not take a number.
+    pub fn evaluate_inputs(&self, inputs: &[Input<'_>]) -> Result<Vec<Vec<f32>>, GpuError> {
         let rows = self.program.check(inputs)?;
-        let mut outputs = vec![Vec::with_capacity(rows); self.program.outputs];
+        let mut outputs = vec![Vec::with_capacity(rows); self.program.outputs()];
         if rows == 0 {
             return Ok(outputs);
         }
@@ -61,8 +69,9 @@ impl Kernel<'_> {
         let buffers = Buffers::new(self.device, &self.program, chunk)?;
         for start in (0..rows).step_by(chunk) {
             let end = (start + chunk).min(rows);
-            let columns = inputs.iter().filter_map(|column| column.get(start..end));
-            let values = self.run(&buffers, columns, end - start)?;
+            let words = |(at, &column)| self.program.words(at, column, start..end);
+            let columns = inputs.iter().enumerate().map(words).collect::<Result<Vec<_>, _>>()?;
+            let values = self.run(&buffers, &columns, end - start)?;
             for (output, part) in outputs.iter_mut().zip(values.chunks_exact(end - start)) {
                 output.extend_from_slice(part);
             }
@@ -73,7 +82,7 @@ impl Kernel<'_> {
     /// Points per dispatch that buffers and dispatch limits of the adapter allow.
     fn chunk_points(&self) -> usize {
         let limits = self.device.raw.limits();
-        let columns = self.program.inputs.max(self.program.outputs).max(1) as u64;
+        let columns = self.program.inputs().len().max(self.program.outputs()).max(1) as u64;
         let bytes = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
         let groups = u64::from(limits.max_compute_workgroups_per_dimension);
         let points = (bytes / 4 / columns)
@@ -83,16 +92,16 @@ impl Kernel<'_> {
     }
 
     /// Evaluates `points` points; returns the output columns one after the other.
-    fn run<'a>(
+    fn run(
         &self,
         buffers: &Buffers,
-        columns: impl Iterator<Item = &'a [f32]>,
+        columns: &[Cow<'_, [u32]>],
         points: usize,
     ) -> Result<Vec<f32>, GpuError> {
         let device = self.device;
         let limit = device.raw.limits().max_compute_workgroups_per_dimension;
         let (across, down) = workgroups(points, limit);
-        let bytes = (self.program.outputs * points * 4) as u64;
+        let bytes = (self.program.outputs() * points * 4) as u64;
         device.guarded(|| {
             let mut offset = 0;
             for column in columns {
@@ -143,9 +152,9 @@ impl Buffers {
                     mapped_at_creation: false,
                 })
             };
-            let results = program.outputs * points;
+            let results = program.outputs() * points;
             let inputs =
-                buffer("inputs", program.inputs * points, Usage::STORAGE | Usage::COPY_DST);
+                buffer("inputs", program.inputs().len() * points, Usage::STORAGE | Usage::COPY_DST);
             let outputs = buffer("outputs", results, Usage::STORAGE | Usage::COPY_SRC);
             let size = buffer("size", 4, Usage::UNIFORM | Usage::COPY_DST);
             let staging = buffer("staging", results, Usage::MAP_READ | Usage::COPY_DST);

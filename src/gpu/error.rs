@@ -1,5 +1,7 @@
 //! What can go wrong between a form and the device.
 
+use crate::form::FormError;
+
 /// Why no device could be opened.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NoDevice {
@@ -41,16 +43,9 @@ pub enum GpuError {
         /// The compiler's report; its line numbers are those of the file.
         report: String,
     },
-    /// The function's signature cannot be fed from columns of f32.
-    #[error("{origin}: function {function}: {what}")]
-    Signature {
-        /// File of the form.
-        origin: String,
-        /// Function.
-        function: String,
-        /// What is in the way.
-        what: String,
-    },
+    /// The form does not load, or an argument does not take a number of its column.
+    #[error(transparent)]
+    Form(#[from] FormError),
     /// Wrong number of parameter values.
     #[error("{origin}: function {function} has {expected} parameters, got {got} values")]
     ParameterCount {

@@ -1,8 +1,8 @@
 //! Forms on the device, through wgpu (Vulkan, Metal, Direct3D 12).
 //!
 //! [`Device::open`] finds an adapter, [`Device::compile`] wraps the form's own text in a compute
-//! kernel with the fitted values as pipeline constants and its tables in buffers, [`Kernel::evaluate`] runs it over any
-//! number of points, and [`time`] measures what forms cost. Every result that comes from a device
+//! kernel with the fitted values as pipeline constants and its tables in buffers, once per device,
+//! [`Kernel::evaluate`] runs it over any number of points, and [`time`] measures what forms cost. Every result that comes from a device
 //! is to be shown beside its [`AdapterDescription`]. Nothing here panics for want of a device:
 //! [`NoDevice`] and [`GpuError`] say what is missing.
 
@@ -10,6 +10,7 @@ mod adapter;
 mod device;
 mod dispatch;
 mod error;
+mod pipelines;
 mod program;
 mod tables;
 mod timing;
@@ -18,4 +19,5 @@ pub use adapter::{AdapterDescription, AdapterReport, list_adapters, required};
 pub use device::{Device, open};
 pub use dispatch::Kernel;
 pub use error::{GpuError, NoDevice};
-pub use timing::{Clock, Cost, Measurement, Spread, TimedForm, Timing, TimingOptions, time};
+pub use pipelines::PipelineCount;
+pub use timing::{Clock, Measurement, Spread, TimedForm, Timing, TimingOptions, time};

@@ -5,7 +5,7 @@ use std::path::{Component, Path};
 
 use crate::fit::FitResult;
 use crate::fit::outcome::Outcome;
-use crate::form::{Form, Parameter};
+use crate::form::{Form, Parameter, ScalarType};
 
 use super::error::RenderError;
 
@@ -89,6 +89,7 @@ impl LightForm {
         let got = self.form.arguments();
         let expected = kind.arguments();
         let fits = got.len() == expected.len()
+            && got.iter().all(|a| a.scalar == ScalarType::F32)
             && got.iter().zip(expected).all(|(a, (_, components))| a.components == *components)
             && self.form.result_components() == 1;
         if fits {

@@ -8,6 +8,7 @@
 
 use serde::Serialize;
 
+use crate::form::Input;
 use crate::gpu::{self, Device, TimedForm, TimingOptions};
 use crate::numeric::measured::Measured;
 
@@ -89,10 +90,11 @@ pub(super) fn timings(
     let [along, across] = directions(&scene.view, scene.scratch.direction_deg, 0..total);
     let thin = |column: Vec<f32>| column.into_iter().step_by(stride).collect::<Vec<f32>>();
     let (along, across) = (thin(along), thin(across));
-    let numbers = (0..total).step_by(stride).map(|pixel| pixel as f32).collect();
-    let views = vec![along.clone(), across.clone()];
-    let draws = vec![along, across, numbers, vec![0.0; views.first().map_or(0, Vec::len)]];
-    let groups: Vec<(&[Kernel], &[Vec<f32>])> = approximations
+    let numbers: Vec<f32> = (0..total).step_by(stride).map(|pixel| pixel as f32).collect();
+    let firsts = vec![0.0_f32; along.len()];
+    let views = [&along, &across].map(Input::from);
+    let draws = [&along, &across, &numbers, &firsts].map(Input::from);
+    let groups: Vec<(&[Kernel], &[Input<'_>])> = approximations
         .iter()
         .map(|kernels| (kernels.as_slice(), views.as_slice()))
         .chain(monte_carlo.map(|kernels| (kernels, draws.as_slice())))
@@ -129,8 +131,8 @@ fn sum_ns(timings: &[gpu::Timing]) -> Measured<f64> {
     let mut sum = 0.0;
     for timing in timings {
         match &timing.cost {
-            gpu::Cost::Measured(measurement) => sum += measurement.net_ns.median,
-            gpu::Cost::NotMeasured { reason } => return Measured::NotMeasured(reason.clone()),
+            Measured::Value(measurement) => sum += measurement.net_ns.median,
+            Measured::NotMeasured(reason) => return Measured::NotMeasured(reason.clone()),
         }
     }
     Measured::Value(sum)

@@ -8,7 +8,7 @@ use crate::effect::{Candidate, NoValue, Reference, Yardstick};
 #[cfg(doc)]
 use crate::effect::{Candidate, Region};
 use crate::fit::outcome::Residuals;
-use crate::form::Form;
+use crate::form::{Form, Input};
 use crate::gpu::{Device, Kernel};
 use crate::numeric::measured::Measured;
 use crate::table::Table;
@@ -336,13 +336,9 @@ pub(crate) fn values_f32(
     candidate: &Candidate,
     target: &Target,
 ) -> Result<Vec<f32>, ValidateError> {
-    let narrow = narrowed(&target.inputs);
-    let inputs: Vec<&[f32]> = narrow.iter().map(Vec::as_slice).collect();
-    joined(
-        candidate.form.origin(),
-        target,
-        candidate.form.eval_f32(&candidate.constants_f32, &inputs)?,
-    )
+    let Candidate { form, constants_f32, .. } = candidate;
+    let values = form.eval_f32_inputs(constants_f32, &as_inputs(&target.inputs))?;
+    joined(form.origin(), target, values)
 }
 
 /// Values on the device at the target's points.
@@ -359,7 +355,7 @@ pub(crate) fn kernel_values(
     kernel: &Kernel<'_>,
     target: &Target,
 ) -> Result<Vec<f32>, ValidateError> {
-    let values = kernel.evaluate(&narrowed(&target.inputs))?;
+    let values = kernel.evaluate_inputs(&as_inputs(&target.inputs))?;
     joined(kernel.origin(), target, values)
 }
 
@@ -378,8 +374,8 @@ fn joined<T: Copy>(
     }
 }
 
-fn narrowed(columns: &[Vec<f64>]) -> Vec<Vec<f32>> {
-    columns.iter().map(|column| column.iter().map(|value| *value as f32).collect()).collect()
+fn as_inputs(inputs: &[Vec<f64>]) -> Vec<Input<'_>> {
+    inputs.iter().map(Input::from).collect()
 }
 
 fn widened(values: &[f32]) -> Vec<f64> {

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 use crate::effect::{Candidate, Reference};
-use crate::form::OpCount;
+use crate::form::{Input, OpCount, ScalarType};
 use crate::gpu::{self, AdapterDescription, Device, Measurement, TimedForm, TimingOptions};
 use crate::numeric::measured::Measured;
 use crate::numeric::statistics::percentile;
@@ -141,12 +141,21 @@ fn group_costs(
             let candidate = &timed.candidate;
             wide_ns[at]
                 .push(nanoseconds(|| candidate.form.eval_f64(&candidate.constants, &columns))?);
-            let columns: Vec<&[f32]> = narrow[at].iter().map(Vec::as_slice).collect();
-            narrow_ns[at]
-                .push(nanoseconds(|| candidate.form.eval_f32(&candidate.constants_f32, &columns))?);
+            let types = candidate.form.input_types();
+            let columns: Vec<Input<'_>> = types
+                .iter()
+                .zip(inputs[at].iter().zip(&narrow[at]))
+                .map(|(scalar, (wide, narrow))| match scalar {
+                    ScalarType::F32 => narrow.into(),
+                    ScalarType::I32 | ScalarType::U32 => wide.into(),
+                })
+                .collect();
+            narrow_ns[at].push(nanoseconds(|| {
+                candidate.form.eval_f32_inputs(&candidate.constants_f32, &columns)
+            })?);
         }
     }
-    let timings = device_timings(candidates, &narrow, device)?;
+    let timings = device_timings(candidates, &inputs, device)?;
     let baseline = candidates.first().map(|c| c.candidate.name.clone()).unwrap_or_default();
     Ok(candidates
         .iter()
@@ -185,7 +194,7 @@ fn shuffled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 fn device_timings(
     candidates: &[Timed],
-    inputs: &[Vec<Vec<f32>>],
+    inputs: &[Vec<Vec<f64>>],
     device: &Measured<Device>,
 ) -> Result<Vec<Measured<Measurement>>, ValidateError> {
     let device = match device {
@@ -194,9 +203,11 @@ fn device_timings(
             return Ok(vec![Measured::NotMeasured(reason.clone()); candidates.len()]);
         }
     };
+    let inputs: Vec<Vec<Input<'_>>> =
+        inputs.iter().map(|columns| columns.iter().map(Input::from).collect()).collect();
     let forms: Vec<TimedForm<'_>> = candidates
         .iter()
-        .zip(inputs)
+        .zip(&inputs)
         .map(|(timed, inputs)| TimedForm {
             name: &timed.candidate.name,
             form: &timed.candidate.form,
@@ -207,13 +218,7 @@ fn device_timings(
     let baseline = candidates.first().map(|timed| timed.candidate.name.clone());
     let options = TimingOptions { baseline, ..TimingOptions::default() };
     let timings = gpu::time(device, &forms, &options)?;
-    Ok(timings
-        .into_iter()
-        .map(|timing| match timing.cost {
-            gpu::Cost::Measured(measurement) => Measured::Value(measurement),
-            gpu::Cost::NotMeasured { reason } => Measured::NotMeasured(reason),
-        })
-        .collect())
+    Ok(timings.into_iter().map(|timing| timing.cost).collect())
 }
 
 fn reference_cost(reference: &Reference, columns: &[Vec<f64>]) -> ReferenceCost {

@@ -1,14 +1,12 @@
 //! Emitted text compiles in its language, carries the header, and keeps the constants' bits.
 
 use std::collections::BTreeMap;
-use std::io::Write;
-use std::process::Command;
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use striae::form::emit::{Emitted, Language, emit};
 use striae::form::{Form, FormError};
 
-use crate::SI;
+use crate::{SI, external};
 
 const LOOPS: &str = include_str!("loops.wgsl");
 
@@ -156,20 +154,4 @@ fn bad_values_are_refused() {
     let unset =
         Form::parse("e.wgsl", "override a: f32; fn f() -> f32 { return a; }", "f").expect("loads");
     assert!(emit(&unset, &BTreeMap::new(), Language::Wgsl, "").is_err());
-}
-
-/// Runs a validator over `bytes`; prints a notice where it is not installed.
-fn external(program: &str, arguments: &[&str], bytes: &[u8], suffix: &str) {
-    let mut file = tempfile::Builder::new().suffix(suffix).tempfile().expect("a temporary file");
-    file.write_all(bytes).expect("writes");
-    match Command::new(program).args(arguments).arg(file.path()).output() {
-        Ok(output) => assert!(
-            output.status.success(),
-            "{program}: {}{}\n{}",
-            String::from_utf8_lossy(&output.stdout),
-            String::from_utf8_lossy(&output.stderr),
-            String::from_utf8_lossy(bytes)
-        ),
-        Err(error) => println!("skipped: {program}: {error}"),
-    }
 }

@@ -70,10 +70,12 @@ fn what_the_function_does_not_reach_does_not_matter() {
 #[test]
 fn signatures() {
     for (signature, name) in [
-        ("fn f(x: i32) -> f32 { return 1.0; }", "i32"),
-        ("fn f(x: vec2<u32>) -> f32 { return 1.0; }", "vec2<u32>"),
+        ("fn f(x: bool) -> f32 { return 1.0; }", "bool"),
+        ("fn f(x: vec2<bool>) -> f32 { return 1.0; }", "vec2<bool"),
+        ("enable f16; fn f(x: vec2<f16>) -> f32 { return 1.0; }", "vec2<f16>"),
         ("fn f(x: array<f32, 3>) -> f32 { return 1.0; }", "array<f32, 3>"),
         ("fn f(x: f32) -> i32 { return 1; }", "i32"),
+        ("fn f(x: f32) -> vec2<u32> { return vec2(1u); }", "vec2<u32>"),
         ("fn f(x: f32) { }", "returns nothing"),
     ] {
         let error = Form::parse("s.wgsl", signature, "f").expect_err(signature).to_string();

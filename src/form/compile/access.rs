@@ -1,6 +1,6 @@
 //! Variables, indexing and constants.
 
-use naga::{AddressSpace, Expression, Handle, TypeInner};
+use naga::{AddressSpace, Arena, Expression, Handle, TypeInner};
 
 use super::Compiler;
 use super::body::Frame;
@@ -12,31 +12,16 @@ use crate::form::program::{Instr, Kind, Reg, Slot};
 impl<'m> Compiler<'m> {
     /// The scalars of a module-scope constant expression; `None` if it depends on an override.
     pub(super) fn constant_global(&self, handle: Handle<Expression>) -> Option<Vec<Scalar>> {
-        match self.module.global_expressions[handle] {
-            Expression::Literal(literal) => Some(vec![scalar_of(literal)?]),
-            Expression::Constant(constant) => {
-                self.constant_global(self.module.constants[constant].init)
-            }
-            Expression::ZeroValue(ty) => {
-                Some(self.kinds_of(ty).ok()?.into_iter().map(Scalar::zero).collect())
-            }
-            Expression::Splat { size, value } => {
-                Some(self.constant_global(value)?.repeat(size as usize))
-            }
-            Expression::Compose { ref components, .. } => {
-                let mut scalars = Vec::new();
-                for &component in components {
-                    scalars.extend(self.constant_global(component)?);
-                }
-                Some(scalars)
-            }
-            _ => None,
-        }
+        self.constant(&self.module.global_expressions, handle)
     }
 
-    /// The scalars of an array written out in a function, if all of them are known.
-    fn constant_local(&self, frame: &Frame<'m>, handle: Handle<Expression>) -> Option<Vec<Scalar>> {
-        match frame.expressions[handle] {
+    /// The scalars of a constant expression of a function or of the module.
+    fn constant(
+        &self,
+        expressions: &Arena<Expression>,
+        handle: Handle<Expression>,
+    ) -> Option<Vec<Scalar>> {
+        match expressions[handle] {
             Expression::Literal(literal) => Some(vec![scalar_of(literal)?]),
             Expression::Constant(constant) => {
                 self.constant_global(self.module.constants[constant].init)
@@ -45,12 +30,12 @@ impl<'m> Compiler<'m> {
                 Some(self.kinds_of(ty).ok()?.into_iter().map(Scalar::zero).collect())
             }
             Expression::Splat { size, value } => {
-                Some(self.constant_local(frame, value)?.repeat(size as usize))
+                Some(self.constant(expressions, value)?.repeat(size as usize))
             }
             Expression::Compose { ref components, .. } => {
                 let mut scalars = Vec::new();
                 for &component in components {
-                    scalars.extend(self.constant_local(frame, component)?);
+                    scalars.extend(self.constant(expressions, component)?);
                 }
                 Some(scalars)
             }
@@ -70,12 +55,7 @@ impl<'m> Compiler<'m> {
             _ => return None,
         };
         let TypeInner::Array { .. } = self.module.types[ty].inner else { return None };
-        let scalars = if frame.info.is_some() {
-            self.constant_local(frame, handle)?
-        } else {
-            self.constant_global(handle)?
-        };
-        Some(Value::Array(scalars))
+        Some(Value::Array(self.constant(frame.expressions, handle)?))
     }
 
     /// The registers of a `var<private>`; its initial value is stored at the start of the program.
@@ -122,9 +102,11 @@ impl<'m> Compiler<'m> {
     /// The table of a storage buffer whose numbers are given beside the text.
     fn given(&mut self, variable: &naga::GlobalVariable) -> Option<Value> {
         let name = variable.name.as_deref()?;
-        let index = self.given.iter().position(|table| table.name == name)?;
-        let length = self.given.get(index)?.values.len() as u32;
-        Some(Value::Table { table: index as u32, length })
+        let mut given = self.given.list.iter().take(self.given.given);
+        let index = given.position(|table| table.name() == name)?;
+        let table = self.given.list.get(index)?;
+        let (kind, count) = (table.scalar().into(), table.components() as u32);
+        Some(Value::Table { table: index as u32, kind, length: table.len() as u32, count })
     }
 
     /// The value of a variable now.
@@ -190,13 +172,11 @@ impl<'m> Compiler<'m> {
         base: Value,
         index: Slot,
     ) -> Result<Value, FormError> {
-        if let Value::Table { table, length } = base {
-            let last = self.integer(length.saturating_sub(1));
-            let index = self.integer2(I2::MinUnsigned, index, last)?;
-            return Ok(Value::Row { table, kind: Kind::F, index, offset: 0, count: 1 });
-        }
         let inner = self.pointee(inner).into_owned();
-        let (stride, length) = self.stride(&inner)?;
+        let (stride, length) = match base {
+            Value::Table { length, count, .. } => (count as usize, length as usize),
+            _ => self.stride(&inner)?,
+        };
         let last = self.integer((length as u32).saturating_sub(1));
         let mut at = self.integer2(I2::MinUnsigned, index, last)?;
         if stride != 1 {
@@ -227,7 +207,9 @@ impl<'m> Compiler<'m> {
                 };
                 Ok(Value::Place(Place { count: stride, index: Some(index), ..place }))
             }
-            Value::Table { .. } => Err(self.mixed()),
+            Value::Table { table, kind, count, .. } => {
+                Ok(Value::Row { table, kind, index: at, offset: 0, count })
+            }
         }
     }
 

@@ -74,10 +74,7 @@ impl Compiler<'_> {
                     (true, true) => IToF::Signed,
                     (true, false) => IToF::Unsigned,
                 };
-                let to = self.program.floats;
-                self.program.floats += 1;
-                self.push(Instr::IToF { op, to, a })?;
-                Ok(Reg::F(to))
+                self.integer_to_float(op, a)
             }
             (Reg::I(a), ScalarKind::Bool) => {
                 let (b, to) = (self.integer(0), self.program.booleans);
@@ -95,6 +92,13 @@ impl Compiler<'_> {
                 self.select(when, Reg::I(one), Reg::I(zero))
             }
         }
+    }
+
+    pub(super) fn integer_to_float(&mut self, op: IToF, a: Slot) -> Result<Reg, FormError> {
+        let to = self.program.floats;
+        self.program.floats += 1;
+        self.push(Instr::IToF { op, to, a })?;
+        Ok(Reg::F(to))
     }
 
     pub(super) fn float_to_integer(&mut self, op: FToI, a: Slot) -> Result<Reg, FormError> {

@@ -1,10 +1,12 @@
 //! Writing instructions: new registers, pooled constants, and what goes to the prologue.
 
+use std::sync::Arc;
+
 use super::value::{Scalar, Value};
 use super::{Compiler, MAX_INSTRUCTIONS};
 use crate::form::FormError;
 use crate::form::operation::{B2, Compare, F1, F2, I1, I2};
-use crate::form::program::{Instr, Kind, Node, Reg, Slot, Table};
+use crate::form::program::{Instr, Kind, Node, Reg, Slot};
 
 impl Compiler<'_> {
     pub(super) fn new_reg(&mut self, kind: Kind) -> Reg {
@@ -15,10 +17,6 @@ impl Compiler<'_> {
         };
         *count += 1;
         make(*count - 1)
-    }
-
-    pub(super) fn new_float(&mut self) -> Reg {
-        self.new_reg(Kind::F)
     }
 
     pub(super) fn new_mask(&mut self) -> u32 {
@@ -73,26 +71,15 @@ impl Compiler<'_> {
 
     /// The table of a constant array; `None` if its scalars are of several kinds.
     pub(super) fn table(&mut self, scalars: &[Scalar]) -> Option<(u32, Kind)> {
-        let floats = || scalars.iter().map(|s| if let Scalar::F(b) = s { Some(*b) } else { None });
-        let integers =
-            || scalars.iter().map(|s| if let Scalar::I(b) = s { Some(*b) } else { None });
-        let booleans =
-            || scalars.iter().map(|s| if let Scalar::B(b) = s { Some(*b) } else { None });
-        let (kind, table) = match scalars.first()? {
-            Scalar::F(_) => {
-                let values = floats().map(|bits| bits.map(f32::from_bits));
-                (Kind::F, Table::F(values.collect::<Option<_>>()?))
-            }
-            Scalar::I(_) => (Kind::I, Table::I(integers().collect::<Option<_>>()?)),
-            Scalar::B(_) => (Kind::B, Table::B(booleans().collect::<Option<_>>()?)),
-        };
-        if let Some(&known) = self.tables.get(scalars) {
-            return Some((known, kind));
+        let (kind, _) = scalars.first()?.parts();
+        let word = |scalar: &Scalar| Some(scalar.parts()).filter(|p| p.0 == kind).map(|p| p.1);
+        let words: Arc<[u32]> = scalars.iter().map(word).collect::<Option<_>>()?;
+        let next = self.program.tables.len() as u32;
+        let table = *self.tables.entry((kind, Arc::clone(&words))).or_insert(next);
+        if table == next {
+            self.program.tables.push(words);
         }
-        let index = self.program.tables.len() as u32;
-        self.program.tables.push(table);
-        self.tables.insert(scalars.to_vec(), index);
-        Some((index, kind))
+        Some((table, kind))
     }
 
     /// The registers of a value; constants and table rows are brought into registers.

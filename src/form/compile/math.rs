@@ -6,7 +6,7 @@ use naga::{MathFunction as Math, ScalarKind};
 use super::Compiler;
 use super::value::Value;
 use crate::form::FormError;
-use crate::form::operation::{Compare, F1, F2, FToI, I1, I2};
+use crate::form::operation::{Compare, F1, F2, FToI, I1, I2, IToF};
 use crate::form::program::{Instr, Reg, Slot};
 
 impl Compiler<'_> {
@@ -251,6 +251,14 @@ impl Compiler<'_> {
         let pick = |yes: I2, no: I2| if signed { yes } else { no };
         let (min, max) =
             (pick(I2::MinSigned, I2::MinUnsigned), pick(I2::MaxSigned, I2::MaxUnsigned));
+        if let (Math::Unpack2x16float, [pair]) = (fun, arguments)
+            && let &[Reg::I(low)] = pair.as_slice()
+        {
+            let sixteen = self.integer(16);
+            let high = self.integer2(I2::ShiftRightUnsigned, low, sixteen)?;
+            let low = self.integer_to_float(IToF::Half, low)?;
+            return Ok(Value::Regs(vec![low, self.integer_to_float(IToF::Half, high)?]));
+        }
         let one = match fun {
             Math::Abs if signed => Some(I1::Abs),
             Math::Sign => Some(I1::Sign),

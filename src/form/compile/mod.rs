@@ -14,11 +14,13 @@ mod types;
 mod value;
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use naga::{Handle, Module, Span, TypeInner, valid::ModuleInfo};
 
-use super::program::{Instr, Node, Program, Reg, Slot, Table};
-use super::{Argument, DataTable, FormError, Parameter};
+use super::data_table::Tables;
+use super::program::{Instr, Kind, Node, Program, Reg, Slot};
+use super::{Argument, FormError, Parameter, ScalarType};
 use body::Frame;
 use value::{Scalar, Value};
 
@@ -54,15 +56,16 @@ struct Compiler<'m> {
     source: &'m str,
     module: &'m Module,
     info: &'m ModuleInfo,
-    /// Tables given beside the text, the first of the program's.
-    given: &'m [DataTable],
+    /// The form's tables, the first of the program's.
+    given: &'m Tables,
     program: Program,
     /// Registers that hold the same value in every lane.
     uniform: HashSet<Reg>,
     floats: HashMap<u32, Slot>,
     integers: HashMap<u32, Slot>,
     booleans: HashMap<bool, Slot>,
-    tables: HashMap<Vec<Scalar>, u32>,
+    /// The tables that constant arrays have become.
+    tables: HashMap<(Kind, Arc<[u32]>), u32>,
     overrides: HashMap<Handle<naga::Override>, Reg>,
     parameters: Vec<(Handle<naga::Override>, Slot)>,
     globals: HashMap<Handle<naga::GlobalVariable>, Vec<Reg>>,
@@ -82,7 +85,7 @@ pub(crate) fn compile(
     module: &Module,
     info: &ModuleInfo,
     function: &str,
-    given: &[DataTable],
+    given: &Tables,
 ) -> Result<Compiled, FormError> {
     let Some((handle, naga_function)) =
         module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(function))
@@ -103,14 +106,14 @@ pub(crate) fn compile(
         info,
         given,
         program: Program {
-            tables: given.iter().map(|table| Table::F(table.values.clone())).collect(),
+            tables: given.list.iter().map(|table| Arc::clone(table.words())).collect(),
             ..Program::default()
         },
         uniform: HashSet::new(),
         floats: HashMap::new(),
         integers: HashMap::new(),
         booleans: HashMap::new(),
-        tables: HashMap::new(),
+        tables: given.constants(),
         overrides: HashMap::new(),
         parameters: Vec::new(),
         globals: HashMap::new(),
@@ -121,17 +124,15 @@ pub(crate) fn compile(
     };
     let arguments = compiler.arguments(naga_function)?;
     let result_components = compiler.result(naga_function)?;
-    let inputs: Vec<Reg> =
-        arguments.iter().flat_map(|a| 0..a.components).map(|_| compiler.new_float()).collect();
-    let mut rest = inputs.as_slice();
     let mut values = Vec::new();
     for argument in &arguments {
-        let (own, others) = rest.split_at(argument.components);
-        values.push(Value::Regs(own.to_vec()));
-        rest = others;
+        let regs: Vec<Reg> =
+            (0..argument.components).map(|_| compiler.new_reg(argument.scalar.into())).collect();
+        compiler.program.inputs.extend(&regs);
+        values.push(Value::Regs(regs));
     }
     let outputs = compiler.call(handle, values)?;
-    Ok(compiler.finish(arguments, result_components, &inputs, &outputs))
+    Ok(compiler.finish(arguments, result_components, &outputs))
 }
 
 impl<'m> Compiler<'m> {
@@ -142,14 +143,15 @@ impl<'m> Compiler<'m> {
             .enumerate()
             .map(|(at, argument)| {
                 let name = argument.name.clone().unwrap_or_else(|| format!("argument{at}"));
-                let components = self.float_components(argument.ty).ok_or_else(|| {
-                    let ty = self.type_name(&self.module.types[argument.ty].inner);
-                    self.unsupported(
-                        self.here,
-                        format!("the type `{ty}` of argument `{name}` (f32 or a vector of f32 is)"),
-                    )
+                let inner = &self.module.types[argument.ty].inner;
+                let (scalar, components) = ScalarType::of(inner).ok_or_else(|| {
+                    let what = format!(
+                        "the type `{}` of argument `{name}` (f32, i32, u32 or a vector of them is)",
+                        self.type_name(inner)
+                    );
+                    self.unsupported(self.here, what)
                 })?;
-                Ok(Argument { name, components })
+                Ok(Argument { name, scalar, components })
             })
             .collect()
     }
@@ -158,21 +160,14 @@ impl<'m> Compiler<'m> {
         let Some(result) = &function.result else {
             return Err(self.unsupported(self.here, "a function that returns nothing"));
         };
-        self.float_components(result.ty).ok_or_else(|| {
-            let ty = self.type_name(&self.module.types[result.ty].inner);
-            self.unsupported(
-                self.here,
-                format!("a result of type `{ty}` (f32 or a vector of f32 is)"),
-            )
-        })
-    }
-
-    /// 1 for f32, 2 to 4 for a vector of f32.
-    fn float_components(&self, ty: Handle<naga::Type>) -> Option<usize> {
-        match self.module.types[ty].inner {
-            TypeInner::Scalar(naga::Scalar::F32) => Some(1),
-            TypeInner::Vector { size, scalar: naga::Scalar::F32 } => Some(size as usize),
-            _ => None,
+        let inner = &self.module.types[result.ty].inner;
+        match ScalarType::of(inner) {
+            Some((ScalarType::F32, components)) => Ok(components),
+            _ => {
+                let ty = self.type_name(inner);
+                let what = format!("a result of type `{ty}` (f32 or a vector of f32 is)");
+                Err(self.unsupported(self.here, what))
+            }
         }
     }
 
@@ -188,7 +183,7 @@ impl<'m> Compiler<'m> {
         let constant = item.init.and_then(|init| self.constant_global(init));
         let reg = match (is_float, item.init, constant) {
             (true, None, _) | (true, Some(_), Some(_)) => {
-                let reg = self.new_float();
+                let reg = self.new_reg(Kind::F);
                 if let Reg::F(slot) = reg {
                     self.parameters.push((handle, slot));
                 }
@@ -216,12 +211,8 @@ impl<'m> Compiler<'m> {
         mut self,
         arguments: Vec<Argument>,
         result_components: usize,
-        inputs: &[Reg],
         outputs: &[Reg],
     ) -> Compiled {
-        let slots = |regs: &[Reg]| -> Vec<Slot> {
-            regs.iter().map(|&(Reg::F(slot) | Reg::I(slot) | Reg::B(slot))| slot).collect()
-        };
         let start = |handle| {
             self.module.overrides.get_span(handle).to_range().map_or(usize::MAX, |r| r.start)
         };
@@ -252,8 +243,8 @@ impl<'m> Compiler<'m> {
             .collect();
         overrides.sort_by_key(|item| item.handle.index());
         self.program.parameters = self.parameters.iter().map(|&(_, slot)| slot).collect();
-        self.program.inputs = slots(inputs);
-        self.program.outputs = slots(outputs);
+        let slot = |&(Reg::F(slot) | Reg::I(slot) | Reg::B(slot)): &Reg| slot;
+        self.program.outputs = outputs.iter().map(slot).collect();
         let cost = self.initial.len() as u64;
         self.program.body = vec![Node::Run { instrs: self.initial, cost }];
         self.program.body.extend(self.open.pop().unwrap_or_default());

@@ -18,6 +18,15 @@ impl Scalar {
             Kind::B => Self::B(false),
         }
     }
+
+    /// Kind and bits; a truth value is 0 or 1.
+    pub(super) fn parts(self) -> (Kind, u32) {
+        match self {
+            Self::F(bits) => (Kind::F, bits),
+            Self::I(bits) => (Kind::I, bits),
+            Self::B(value) => (Kind::B, value.into()),
+        }
+    }
 }
 
 /// The value of an expression.
@@ -27,8 +36,8 @@ pub(super) enum Value {
     Regs(Vec<Reg>),
     /// An array that is known at compile time; it becomes a table when it is indexed.
     Array(Vec<Scalar>),
-    /// A table that is given beside the text: `length` numbers.
-    Table { table: u32, length: u32 },
+    /// A table that is given beside the text: `length` entries of `count` scalars.
+    Table { table: u32, kind: Kind, length: u32, count: u32 },
     /// Part of a table: `count` scalars from `index + offset`.
     Row { table: u32, kind: Kind, index: Slot, offset: u32, count: u32 },
     /// A reference to a variable or a part of one.

@@ -6,7 +6,7 @@ use super::dual::Planes;
 use super::machine::{Files, Machine, Tangents, Unbounded, ValuesOnly};
 use super::{LANES, MAX_CHUNK_COST, MAX_LOOP_ITERATIONS, Real};
 use crate::form::program::Reg;
-use crate::form::{Dual, Form, FormError};
+use crate::form::{Dual, Form, FormError, Input};
 
 /// Evaluates one form again and again, in f64 or f32, without allocating.
 #[derive(Debug, Clone)]
@@ -29,12 +29,25 @@ macro_rules! evaluator {
             /// [`Form::input_columns`], all of one length (a form without inputs has one point).
             ///
             /// # Errors
-            /// [`FormError::Shape`] if a count does not fit, [`FormError::Unbounded`] if a loop
-            /// does not end.
+            /// [`FormError::Shape`] if a count does not fit, [`FormError::Input`] if an integer
+            /// argument does not take a number, [`FormError::Unbounded`] if a loop does not end.
             pub fn eval_into(
                 &mut self,
                 parameters: &[$real],
                 inputs: &[&[$real]],
+                values: &mut Vec<Vec<$real>>,
+            ) -> Result<(), FormError> {
+                each_chunk(&self.form, &mut self.machine, parameters, inputs, values, |_, _| {})
+            }
+
+            /// Evaluates at every point, of columns of any type.
+            ///
+            /// # Errors
+            /// As [`Evaluator::eval_into`].
+            pub fn eval_inputs_into(
+                &mut self,
+                parameters: &[$real],
+                inputs: &[Input<'_>],
                 values: &mut Vec<Vec<$real>>,
             ) -> Result<(), FormError> {
                 each_chunk(&self.form, &mut self.machine, parameters, inputs, values, |_, _| {})
@@ -73,8 +86,7 @@ impl DualEvaluator {
     /// Arguments and errors as for [`Evaluator::eval_into`].
     ///
     /// # Errors
-    /// [`FormError::Shape`] if a count does not fit, [`FormError::Unbounded`] if a loop does not
-    /// end.
+    /// As [`Evaluator::eval_into`].
     pub fn eval_into(
         &mut self,
         parameters: &[f64],
@@ -83,7 +95,7 @@ impl DualEvaluator {
     ) -> Result<(), FormError> {
         let Dual { values, derivatives } = dual;
         let outputs = &self.form.program().outputs;
-        let points = points(inputs);
+        let points = inputs.first().map_or(1, |input| input.len());
         derivatives.resize(outputs.len(), Vec::new());
         for planes in &mut *derivatives {
             planes.resize(self.free, Vec::new());
@@ -103,17 +115,12 @@ impl DualEvaluator {
     }
 }
 
-/// Number of points that `inputs` describe.
-fn points<R>(inputs: &[&[R]]) -> usize {
-    inputs.first().map_or(1, |input| input.len())
-}
-
 /// Runs the form chunk by chunk; `collect` sees the machine after each.
-fn each_chunk<R: Real, T: Tangents<R>>(
+fn each_chunk<'c, R: Real, T: Tangents<R>, C: Copy + Into<Input<'c>>>(
     form: &Form,
     machine: &mut Machine<R, T>,
     parameters: &[R],
-    inputs: &[&[R]],
+    inputs: &[C],
     values: &mut Vec<Vec<R>>,
     mut collect: impl FnMut(&Machine<R, T>, std::ops::Range<usize>),
 ) -> Result<(), FormError> {
@@ -126,9 +133,10 @@ fn each_chunk<R: Real, T: Tangents<R>>(
     };
     count("parameters", parameters.len(), program.parameters.len())?;
     count("scalar inputs", inputs.len(), program.inputs.len())?;
-    let points = points(inputs);
-    if let Some((at, input)) = inputs.iter().enumerate().find(|(_, i)| i.len() != points) {
-        let (first, other, rows) = (form.input_column(0), form.input_column(at), input.len());
+    let rows = |input: &C| -> usize { (*input).into().len() };
+    let points = inputs.first().map_or(1, rows);
+    if let Some(at) = inputs.iter().position(|input| rows(input) != points) {
+        let (first, other, rows) = (form.input_column(0), form.input_column(at), rows(&inputs[at]));
         return Err(form.shape_error(format!(
             "column `{first}` has {points} rows, but column `{other}` has {rows}"
         )));
@@ -138,9 +146,19 @@ fn each_chunk<R: Real, T: Tangents<R>>(
     machine.prepare(program, parameters);
     for start in (0..points).step_by(LANES) {
         let chunk = start..points.min(start + LANES);
-        machine
-            .run(program, inputs.iter().map(|input| &input[chunk.clone()]), chunk.len())
-            .map_err(|unbounded| unbounded_error(form, unbounded))?;
+        for (at, (&reg, &input)) in program.inputs.iter().zip(inputs).enumerate() {
+            let Files { floats, integers, .. } = &mut machine.files;
+            match reg {
+                Reg::F(slot) => input.into().fill(chunk.clone(), &mut floats[slot as usize]),
+                Reg::I(slot) | Reg::B(slot) => {
+                    let scalar = form.input_type(at);
+                    for (lane, row) in integers[slot as usize].iter_mut().zip(chunk.clone()) {
+                        *lane = form.word(at, scalar, input.into(), row)?;
+                    }
+                }
+            }
+        }
+        machine.run(program, chunk.len()).map_err(|unbounded| unbounded_error(form, unbounded))?;
         for (column, &slot) in values.iter_mut().zip(&program.outputs) {
             let lanes = &machine.files.floats[slot as usize];
             column[chunk.clone()].copy_from_slice(&lanes[..chunk.len()]);

@@ -6,7 +6,7 @@ use super::LANES;
 use super::integer::{boolean2, compare_integers, extract_bits, insert_bits, integer1, integer2};
 use super::mask::Mask;
 use super::real::{Real, compare, each1, each2, float1, float2, from_integer, to_integer};
-use crate::form::program::{Instr, Program, Reg, Slot, Table};
+use crate::form::program::{Instr, Program, Reg, Slot};
 
 /// The register files: one vector of lanes per register.
 #[derive(Debug, Clone)]
@@ -82,17 +82,9 @@ impl<R: Real, T: Tangents<R>> Machine<R, T> {
         }
     }
 
-    /// Runs the body over a chunk: `inputs` one slice per input register, all of `count` ≤
-    /// [`LANES`] lanes. The results are in the program's output registers.
-    pub(crate) fn run<'i>(
-        &mut self,
-        program: &Program,
-        inputs: impl Iterator<Item = &'i [R]>,
-        count: usize,
-    ) -> Result<(), Unbounded> {
-        for (&slot, input) in program.inputs.iter().zip(inputs) {
-            self.files.floats[slot as usize][..count].copy_from_slice(&input[..count]);
-        }
+    /// Runs the body over a chunk of `count` ≤ [`LANES`] lanes, whose inputs are in the program's
+    /// input registers. The results are in its output registers.
+    pub(crate) fn run(&mut self, program: &Program, count: usize) -> Result<(), Unbounded> {
         self.active_lanes = count;
         self.spent = 0;
         let mut mask = Mask::first(count);
@@ -194,18 +186,19 @@ impl<R: Real, T: Tangents<R>> Machine<R, T> {
                 _ => unreachable!("the compiler selects between registers of one kind"),
             },
             Instr::Table { to, table, index, offset } => {
-                let at = |i: u32| (i + offset) as usize;
-                match (to, &program.tables[table as usize]) {
-                    (Reg::F(to), Table::F(values)) => write!(floats[to], |out| {
-                        each1(arch, out, read!(integers[index]), |i| R::from_f32(values[at(i)]))
+                let words = &program.tables[table as usize];
+                let word = |i: u32| words[(i + offset) as usize];
+                match to {
+                    Reg::F(to) => write!(floats[to], |out| {
+                        let number = |i| R::from_f32(f32::from_bits(word(i)));
+                        each1(arch, out, read!(integers[index]), number)
                     }),
-                    (Reg::I(to), Table::I(values)) => write!(integers[to], |out| {
-                        each1(arch, out, read!(integers[index]), |i| values[at(i)])
+                    Reg::I(to) => write!(integers[to], |out| {
+                        each1(arch, out, read!(integers[index]), word)
                     }),
-                    (Reg::B(to), Table::B(values)) => write!(booleans[to], |out| {
-                        each1(arch, out, read!(integers[index]), |i| values[at(i)])
+                    Reg::B(to) => write!(booleans[to], |out| {
+                        each1(arch, out, read!(integers[index]), |i| word(i) != 0)
                     }),
-                    _ => unreachable!("the compiler reads tables into registers of their kind"),
                 }
             }
             Instr::Gather { to, ref from, index } => {

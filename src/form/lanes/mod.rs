@@ -6,15 +6,14 @@
 //! that no lane enters is skipped.
 
 mod control;
-mod double;
 mod dual;
 mod elementary;
 mod evaluate;
 mod integer;
 mod machine;
 mod mask;
+mod precision;
 mod real;
-mod single;
 
 pub(crate) use evaluate::override_values;
 pub use evaluate::{DualEvaluator, Evaluator};

@@ -2,6 +2,7 @@
 
 use pulp::Arch;
 
+use crate::form::half;
 use crate::form::operation::{Compare, F1, F2, FToI, IToF};
 
 /// A floating-point type that lanes can hold.
@@ -24,6 +25,7 @@ pub(crate) trait Real:
     const RADIANS_PER_DEGREE: Self;
 
     fn from_f32(value: f32) -> Self;
+    fn from_f64(value: f64) -> Self;
     /// Rounds to f32, ties to even.
     fn to_f32(self) -> f32;
     fn from_i32(value: i32) -> Self;
@@ -124,7 +126,7 @@ pub(crate) fn float1<R: Real>(arch: Arch, op: F1, to: &mut [R], a: &[R]) {
         F1::Degrees => each1(arch, to, a, |x| x * R::DEGREES_PER_RADIAN),
         F1::Radians => each1(arch, to, a, |x| x * R::RADIANS_PER_DEGREE),
         F1::FrexpFract => each1(arch, to, a, |x| x.split().0),
-        F1::QuantizeF16 => each1(arch, to, a, |x| R::from_f32(quantize_f16(x.to_f32()))),
+        F1::QuantizeF16 => each1(arch, to, a, |x| R::from_f32(half::quantized(x.to_f32()))),
         F1::Sqrt => each1(arch, to, a, R::sqrt),
         F1::InverseSqrt
         | F1::Sin
@@ -196,24 +198,6 @@ pub(crate) fn from_integer<R: Real>(arch: Arch, op: IToF, to: &mut [R], a: &[u32
         IToF::Signed => each1(arch, to, a, |bits| R::from_i32(bits as i32)),
         IToF::Unsigned => each1(arch, to, a, R::from_u32),
         IToF::Bits => each1(arch, to, a, |bits| R::from_f32(f32::from_bits(bits))),
-    }
-}
-
-/// Rounds to binary16 and back, ties to even; beyond its range ±∞.
-fn quantize_f16(value: f32) -> f32 {
-    const SMALLEST_NORMAL: f32 = 6.103_515_6e-5;
-    const OVERFLOW: f32 = 65520.0;
-    if value.is_nan() {
-        value
-    } else if value.abs() >= OVERFLOW {
-        f32::INFINITY.copysign(value)
-    } else if value.abs() < SMALLEST_NORMAL {
-        // Subnormal halves are multiples of 2⁻²⁴: adding and subtracting 1.5 · 2⁻¹ rounds to one.
-        ((value.abs() + 0.75) - 0.75).copysign(value)
-    } else {
-        // Thirteen of the 23 fraction bits go; the carry into the exponent is what rounding wants.
-        let bits = value.to_bits();
-        let rounded = bits + 0x0fff + ((bits >> 13) & 1);
-        f32::from_bits(rounded & !0x1fff)
+        IToF::Half => each1(arch, to, a, |bits| R::from_f32(half::value(bits))),
     }
 }

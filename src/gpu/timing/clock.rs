@@ -161,6 +161,7 @@ fn encode(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::form::ScalarType;
     use crate::gpu::program::Program;
 
     /// Both clocks give a duration; the host's, which includes more, is used without timestamps.
@@ -173,8 +174,8 @@ mod tests {
         let with = Stopwatch::new(&device)?;
         let without = Stopwatch { sums: with.sums.clone(), timestamps: None };
         assert_eq!(without.clock(), Clock::Host);
-        let program = Program::empty_loop(1)?;
-        let inputs = [vec![1.0, 2.0, 3.0]];
+        let program = Program::empty_loop(&[ScalarType::F32])?;
+        let inputs = [[1.0_f32, 2.0, 3.0].map(f32::to_bits).to_vec()];
         let options = TimingOptions { rounds: 3, ..Default::default() };
         let items = [Item::new(&device, &with.sums, &program, &inputs, &options)?];
         for stopwatch in [with, without] {

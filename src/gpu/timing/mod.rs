@@ -13,8 +13,7 @@
 //! branch: what counts is which sides run, as on a GPU, not how well they are guessed.
 //! Parameters are pipeline constants and may be folded, as they are in the emitted code. What is
 //! measured is throughput, not latency: the evaluations of a loop do not depend on each other.
-//! Module-scope arrays of 32 or more f32 lie in storage buffers, as an engine would hold them, so
-//! reading such a table costs a load from the device's memory, cached as the device pleases.
+//! The tables of a form lie in storage buffers, as an engine would hold them, so reading one costs a load from the device's memory, cached as the device pleases.
 
 mod clock;
 mod item;
@@ -27,7 +26,8 @@ pub use spread::Spread;
 use super::device::Device;
 use super::error::GpuError;
 use super::program::{Program, Purpose};
-use crate::form::Form;
+use crate::form::{Form, Input, ScalarType};
+use crate::numeric::measured::Measured;
 use clock::Stopwatch;
 use item::Item;
 use serde::{Deserialize, Serialize};
@@ -44,7 +44,7 @@ pub struct TimedForm<'a> {
     pub parameters: &'a [f32],
     /// One column per entry of [`Form::input_columns`], all of one length, spread evenly over the
     /// domain in any order.
-    pub inputs: &'a [Vec<f32>],
+    pub inputs: &'a [Input<'a>],
 }
 
 /// How to time.
@@ -98,20 +98,7 @@ pub struct Timing {
     /// Name, from [`TimedForm::name`].
     pub name: String,
     /// The cost, or why it is not known.
-    pub cost: Cost,
-}
-
-/// A measured cost, or the reason why there is none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Cost {
-    /// Measured.
-    Measured(Measurement),
-    /// Not measured.
-    NotMeasured {
-        /// Why.
-        reason: String,
-    },
+    pub cost: Measured<Measurement>,
 }
 
 /// Figures over the rounds.
@@ -132,16 +119,6 @@ pub struct Measurement {
     /// rounds; `None` without a baseline, or where the baseline costs nothing that can be told from
     /// the empty loop.
     pub ratio: Option<Spread>,
-}
-
-impl Timing {
-    /// The figures, if the form was measured.
-    pub fn measurement(&self) -> Option<&Measurement> {
-        match &self.cost {
-            Cost::Measured(measurement) => Some(measurement),
-            Cost::NotMeasured { .. } => None,
-        }
-    }
 }
 
 /// Times `forms`; one [`Timing`] per form, in their order.
@@ -172,7 +149,7 @@ pub fn time(
     let timings = forms.iter().zip(&bench.places).map(|(timed, place)| Timing {
         name: timed.name.to_owned(),
         cost: match place {
-            Err(reason) => Cost::NotMeasured { reason: reason.clone() },
+            Err(reason) => Measured::NotMeasured(reason.clone()),
             Ok(place) => bench.cost(*place, &rounds, baseline.as_deref(), stopwatch.clock()),
         },
     });
@@ -201,18 +178,17 @@ impl Bench {
         options: &TimingOptions,
     ) -> Result<Self, GpuError> {
         let mut bench = Self { items: Vec::new(), places: Vec::with_capacity(forms.len()) };
-        // Number of columns and index of each empty loop.
-        let mut empty_loops: Vec<(usize, usize)> = Vec::new();
-        for (timed, program) in forms.iter().zip(programs(forms, options)) {
-            let program = match program {
-                Ok(program) => program,
+        // Types of the inputs and index of each empty loop.
+        let mut empty_loops: Vec<(Vec<ScalarType>, usize)> = Vec::new();
+        for candidate in candidates(device, forms, options) {
+            let Candidate { program, inputs } = match candidate {
+                Ok(candidate) => candidate,
                 Err(reason) => {
                     bench.places.push(Err(reason));
                     continue;
                 }
             };
-            let item = Item::new(device, &stopwatch.sums, &program, timed.inputs, options);
-            match item {
+            match Item::new(device, &stopwatch.sums, &program, &inputs, options) {
                 Ok(item) => bench.items.push(item),
                 Err(
                     error @ (GpuError::Lost(_) | GpuError::OutOfMemory(_) | GpuError::TimedOut(_)),
@@ -223,15 +199,15 @@ impl Bench {
                 }
             }
             let own = bench.items.len() - 1;
-            let columns = timed.inputs.len();
-            let known = empty_loops.iter().find(|(count, _)| *count == columns);
+            let types = program.inputs();
+            let known = empty_loops.iter().find(|(known, _)| *known == types);
             let empty = match known {
                 Some((_, index)) => *index,
                 None => {
-                    let program = Program::empty_loop(columns)?;
-                    let item = Item::new(device, &stopwatch.sums, &program, timed.inputs, options)?;
+                    let program = Program::empty_loop(&types)?;
+                    let item = Item::new(device, &stopwatch.sums, &program, &inputs, options)?;
                     bench.items.push(item);
-                    empty_loops.push((columns, own + 1));
+                    empty_loops.push((types, own + 1));
                     own + 1
                 }
             };
@@ -246,16 +222,15 @@ impl Bench {
         rounds: &[Vec<f64>],
         baseline: Option<&[f64]>,
         clock: Clock,
-    ) -> Cost {
+    ) -> Measured<Measurement> {
         let net = place.net(rounds);
         let empty: Vec<f64> =
             rounds.iter().filter_map(|round| round.get(place.empty).copied()).collect();
         let (Some(net_ns), Some(empty_ns)) = (Spread::of(&net), Spread::of(&empty)) else {
-            return Cost::NotMeasured {
-                reason: "the device's timestamps do not advance".to_owned(),
-            };
+            let reason = "the device's timestamps do not advance";
+            return Measured::NotMeasured(reason.to_owned());
         };
-        Cost::Measured(Measurement {
+        Measured::Value(Measurement {
             clock,
             rounds: rounds.len(),
             evaluations: self.items.get(place.own).map_or(0, Item::evaluations),
@@ -266,34 +241,39 @@ impl Bench {
     }
 }
 
-/// The kernels of `forms` that can be timed, or the reasons why not.
-fn programs(forms: &[TimedForm<'_>], options: &TimingOptions) -> Vec<Result<Program, String>> {
-    let mut programs: Vec<Result<Program, String>> = forms.iter().map(program).collect();
-    let candidates: Vec<Candidate> = forms
-        .iter()
-        .zip(&programs)
-        .filter_map(|(timed, program)| {
-            let row = timed.inputs.iter().map(|column| column.iter().copied().take(1).collect());
-            Some(Candidate { program: program.as_ref().ok()?.clone(), row: row.collect() })
-        })
+/// The kernels of `forms` that can be timed, or the reasons why not. What the device has compiled
+/// before needs no trial.
+fn candidates(
+    device: &Device,
+    forms: &[TimedForm<'_>],
+    options: &TimingOptions,
+) -> Vec<Result<Candidate, String>> {
+    let mut candidates: Vec<Result<Candidate, String>> = forms.iter().map(candidate).collect();
+    let mut fresh: Vec<&mut Result<Candidate, String>> = candidates
+        .iter_mut()
+        .filter(|c| c.as_ref().is_ok_and(|c| !device.pipelines.has(&c.program.key())))
         .collect();
-    let tried = programs.iter_mut().filter(|program| program.is_ok());
-    for (program, verdict) in tried.zip(trial::verdicts(&candidates, options)) {
+    let tried: Vec<Candidate> =
+        fresh.iter().filter_map(|c| Some(c.as_ref().ok()?.with_one_row())).collect();
+    for (candidate, verdict) in fresh.iter_mut().zip(trial::verdicts(&tried, options)) {
         if let Err(reason) = verdict {
-            *program = Err(reason);
+            **candidate = Err(reason);
         }
     }
-    programs
+    candidates
 }
 
-fn program(timed: &TimedForm<'_>) -> Result<Program, String> {
-    if timed.inputs.first().is_some_and(Vec::is_empty) {
+fn candidate(timed: &TimedForm<'_>) -> Result<Candidate, String> {
+    if timed.inputs.first().is_some_and(|column| column.is_empty()) {
         return Err("there are no points to time it at".to_owned());
     }
     let program = Program::new(timed.form, timed.parameters, Purpose::Repeat)
         .map_err(|error| error.to_string())?;
-    program.check(timed.inputs).map_err(|error| error.to_string())?;
-    Ok(program)
+    let inputs = program.check(timed.inputs).and_then(|rows| {
+        let column = |(at, column)| Ok(program.words(at, column, 0..rows)?.into_owned());
+        timed.inputs.iter().copied().enumerate().map(column).collect::<Result<_, _>>()
+    });
+    Ok(Candidate { inputs: inputs.map_err(|error: GpuError| error.to_string())?, program })
 }
 
 impl Place {

@@ -11,11 +11,20 @@ use crate::gpu::program::Program;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
-/// A kernel to try, with one row of its inputs.
+/// A kernel to time, with the columns of its inputs.
 #[derive(Debug, Clone)]
 pub(super) struct Candidate {
     pub(super) program: Program,
-    pub(super) row: Vec<Vec<f32>>,
+    pub(super) inputs: Vec<Vec<u32>>,
+}
+
+impl Candidate {
+    /// The kernel with the first row of its inputs.
+    pub(super) fn with_one_row(&self) -> Self {
+        let first = |column: &Vec<u32>| column.iter().copied().take(1).collect();
+        let inputs = self.inputs.iter().map(first).collect();
+        Self { program: self.program.clone(), inputs }
+    }
 }
 
 /// Whether a kernel can be timed, else the reason why not.
@@ -95,7 +104,7 @@ fn attempt(
     options: &TimingOptions,
 ) -> Result<(), GpuError> {
     let stopwatch = Stopwatch::new(device)?;
-    let item = Item::new(device, &stopwatch.sums, &candidate.program, &candidate.row, options)?;
+    let item = Item::new(device, &stopwatch.sums, &candidate.program, &candidate.inputs, options)?;
     stopwatch.durations(device, &[&item]).map(|_| ())
 }
 

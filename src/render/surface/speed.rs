@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::form::Input;
 use crate::gpu::{self, Device, TimedForm, TimingOptions};
 use crate::numeric::measured::Measured;
 use crate::render::RenderError;
@@ -36,10 +37,12 @@ pub(super) fn times(
         approximations.iter().map(Vec::as_slice).chain([full]).collect();
     let inputs: Vec<Vec<Vec<f32>>> =
         groups.iter().flat_map(|group| group.iter().map(thinned)).collect();
+    let columns: Vec<Vec<Input<'_>>> =
+        inputs.iter().map(|pass| pass.iter().map(Input::from).collect()).collect();
     let forms: Vec<TimedForm<'_>> = groups
         .iter()
         .flat_map(|group| group.iter())
-        .zip(&inputs)
+        .zip(&columns)
         .map(|(pass, inputs)| TimedForm {
             name: pass.kernel.form.origin(),
             form: &pass.kernel.form,
@@ -59,10 +62,10 @@ pub(super) fn times(
         let mut ms = 0.0;
         for (pass, timing) in group.iter().zip(timings.by_ref().take(group.len())) {
             match &timing.cost {
-                gpu::Cost::Measured(found) => {
+                Measured::Value(found) => {
                     ms += found.net_ns.median * pass.evaluations as f64 * 1e-6;
                 }
-                gpu::Cost::NotMeasured { reason } => {
+                Measured::NotMeasured(reason) => {
                     return Measured::NotMeasured(reason.clone());
                 }
             }
