@@ -168,7 +168,8 @@ pub(super) fn fitted(name: &str, project: &Project) -> anyhow::Result<Option<Out
 
 fn unknown(name: &str, project: Option<&Project>) -> anyhow::Error {
     let references = EFFECTS.iter().flat_map(|effect| effect.references).map(|r| r.name);
-    let forms = EFFECTS.iter().flat_map(|effect| effect.forms).map(|f| f.name);
+    let forms =
+        EFFECTS.iter().flat_map(|effect| registry::forms_of(effect)).map(|f| f.name.as_str());
     let known: Vec<&str> = references.chain(forms).collect();
     let without = if project.is_none() { " (fits were not searched: no project)" } else { "" };
     anyhow!("there is no reference, fit or form `{name}`; known: {}{without}", known.join(", "))

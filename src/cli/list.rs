@@ -8,7 +8,7 @@ use super::context::Context;
 use super::output::{significant, table};
 use super::{Ending, specs};
 use crate::gate;
-use crate::registry::EFFECTS;
+use crate::registry::{EFFECTS, Registry};
 use crate::render::AnyScene;
 
 /// List what there is: effects, references, forms, simulators, data, scenes, fits and gates
@@ -135,8 +135,9 @@ fn references() -> Listing {
 }
 
 fn forms() -> Listing {
-    let rows = EFFECTS.iter().flat_map(|effect| effect.forms).map(|form| {
-        row([form.name, form.function, form.reference, form.description, form.citation])
+    let rows = Registry::builtin().forms().iter().map(|form| {
+        let reference = form.reference.as_deref().unwrap_or_default();
+        row([&form.name, &form.function, reference, &form.description, &form.citation])
     });
     Listing {
         title: "forms",

@@ -26,8 +26,8 @@ impl FittedForm {
             .map(|p| known.and_then(|values| values.get(&p.name)).copied().or(p.default))
             .collect::<Option<_>>()
             .ok_or_else(|| FormError::Shape {
-                origin: entry.path.into(),
-                function: entry.function.into(),
+                origin: entry.path.clone(),
+                function: entry.function.clone(),
                 what: "a constant has neither a fitted value nor one in the text".into(),
             })?;
         Ok(Self { form, constants })

@@ -4,16 +4,18 @@ pub mod candidate;
 pub mod claim;
 pub mod exhibit;
 pub mod fitted_form;
+mod form_library;
+mod form_text;
 pub mod simulator;
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use crate::form::{Form, FormError};
 use crate::table::Table;
 pub use candidate::{Candidate, CandidateError, Candidates, ConstantsOf};
 pub use claim::{Claim, ClaimError, Finding, Found};
 use exhibit::{Exhibit, ExhibitError};
+pub use form_library::{FormEntry, FormLibrary};
+pub use form_text::{FormText, FormTextError, FormTextFault, Place};
 use simulator::Simulator;
 
 /// A quantity a reference takes or returns.
@@ -56,34 +58,6 @@ pub struct Reference {
     pub source: &'static str,
     /// The value at one point; `arguments` in the order above.
     pub evaluate: fn(&[f64]) -> Result<f64, DomainError>,
-}
-
-/// Text of a form.
-#[derive(Debug, Clone, Copy)]
-pub enum Source {
-    /// Written by hand in `forms/*.wgsl`.
-    Written(&'static str),
-    /// Made from a reference (a lookup table, say) when it is asked for.
-    Generated(fn() -> String),
-}
-
-/// An approximation, as registered by an effect.
-#[derive(Debug, Clone, Copy)]
-pub struct FormEntry {
-    /// `effect/form`, as in `striae eval NAME`.
-    pub name: &'static str,
-    /// One line.
-    pub description: &'static str,
-    /// Where it comes from: paper and equation, or `striae`.
-    pub citation: &'static str,
-    /// Path inside the repository, for diagnostics.
-    pub path: &'static str,
-    /// The WGSL text.
-    pub source: Source,
-    /// The WGSL function.
-    pub function: &'static str,
-    /// The reference that it approximates.
-    pub reference: &'static str,
 }
 
 /// A named region in which forms are judged: for every argument of the reference, its values.
@@ -204,7 +178,7 @@ pub struct Goal {
     pub why: &'static str,
 }
 
-/// One physical thing.
+/// One physical thing. What it lacks is left to [`Effect::EMPTY`].
 #[derive(Debug, Clone, Copy)]
 pub struct Effect {
     /// Module name.
@@ -215,8 +189,8 @@ pub struct Effect {
     pub description: &'static str,
     /// Exact quantities.
     pub references: &'static [Reference],
-    /// Approximations.
-    pub forms: &'static [FormEntry],
+    /// Texts of its approximations, and of the pieces that they share.
+    pub forms: fn() -> Vec<FormText>,
     /// What makes tables of it.
     pub simulators: &'static [Simulator],
     /// Families of tables made from measured data.
@@ -238,22 +212,22 @@ pub struct Effect {
     pub exhibits: fn(&FittedConstants) -> Result<Vec<Exhibit>, ExhibitError>,
 }
 
-impl Source {
-    /// The WGSL text.
-    pub fn text(&self) -> Cow<'static, str> {
-        match self {
-            Self::Written(text) => Cow::Borrowed(text),
-            Self::Generated(make) => Cow::Owned(make()),
-        }
-    }
-}
-
-impl FormEntry {
-    /// Parses and compiles the form.
-    ///
-    /// # Errors
-    /// [`FormError`] if the text is not a form.
-    pub fn load(&self) -> Result<Form, FormError> {
-        Form::parse(self.path, &self.source.text(), self.function)
-    }
+impl Effect {
+    /// An effect without a name and with nothing in it, for `..Effect::EMPTY`.
+    pub const EMPTY: Self = Self {
+        name: "",
+        title: "",
+        description: "",
+        references: &[],
+        forms: Vec::new,
+        simulators: &[],
+        families: &[],
+        regions: &[],
+        hard_cases: &[],
+        laws: &[],
+        goals: &[],
+        baselines: &[],
+        findings: |_| Vec::new(),
+        exhibits: |_| Ok(Vec::new()),
+    };
 }

@@ -84,8 +84,9 @@ pub fn run_spec(spec: &Spec, context: &Context) -> Result<FitResult, FitError> {
 pub fn load_form(spec: &Spec, context: &Context) -> Result<Form, FitError> {
     match &spec.form {
         FormChoice::Registered(name) => {
-            let (_, entry) = registry::form(name)
-                .ok_or_else(|| unknown("form", name, |e| names(e.forms, |f| f.name)))?;
+            let (_, entry) = registry::form(name).ok_or_else(|| {
+                unknown("form", name, |e| registry::forms_of(e).map(|f| f.name.as_str()).collect())
+            })?;
             Ok(entry.load()?)
         }
         FormChoice::File { path, function } => {

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::effect::{Effect, Law};
+use crate::registry;
 use crate::validate::accuracy::Shipped;
 
 /// How a form stands to a law.
@@ -35,8 +36,9 @@ pub enum LawStanding {
 /// Judges the laws of `effect` that apply to `shipped`, in f32. A form that cannot be evaluated
 /// violates.
 pub fn judge(effect: &Effect, form_name: &str, shipped: &Shipped) -> Vec<LawVerdict> {
-    let entry = effect.forms.iter().find(|form| form.name == form_name);
-    let reference = entry.map_or("", |form| form.reference);
+    let reference = registry::form(form_name)
+        .and_then(|(_, form)| form.reference.as_deref())
+        .unwrap_or_default();
     let applies = |law: &&Law| law.references.is_empty() || law.references.contains(&reference);
     effect.laws.iter().filter(applies).map(|law| verdict(law, form_name, shipped)).collect()
 }

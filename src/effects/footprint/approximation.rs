@@ -5,11 +5,10 @@ use rayon::prelude::*;
 
 use crate::effect::exhibit::ExhibitError;
 use crate::effect::fitted_form::FittedForm;
-use crate::effect::{DomainError, FittedConstants, FormEntry};
+use crate::effect::{DomainError, FittedConstants};
+use crate::effects;
 use crate::form::FormError;
 use crate::numeric::statistics;
-
-use super::forms::FORMS;
 
 /// An exact mean: a function of h and s.
 pub(super) type Mean = fn(f64, f64) -> Result<f64, DomainError>;
@@ -17,8 +16,6 @@ pub(super) type Mean = fn(f64, f64) -> Result<f64, DomainError>;
 /// Why a figure could not be measured.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum NotMeasured {
-    #[error("no form is called {0}")]
-    Unknown(String),
     #[error(transparent)]
     Form(#[from] FormError),
     #[error(transparent)]
@@ -39,9 +36,7 @@ impl Approximation {
     /// The form and the constants of `footprint/fit`; `form` is the name of its form.
     pub(super) fn of(form: &str, fit: &str, fitted: &FittedConstants) -> Result<Self, NotMeasured> {
         let name = format!("footprint/{form}");
-        let entry: Option<&FormEntry> = FORMS.iter().find(|entry| entry.name == name);
-        let entry = entry.ok_or(NotMeasured::Unknown(name))?;
-        Ok(Self(FittedForm::new(entry, &format!("footprint/{fit}"), fitted)?))
+        Ok(Self(FittedForm::new(effects::form(&name)?, &format!("footprint/{fit}"), fitted)?))
     }
 
     /// The form of the fit of the same name.

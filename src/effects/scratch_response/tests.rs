@@ -2,7 +2,7 @@
 
 use super::EFFECT;
 use super::*;
-use crate::effect::FittedConstants;
+use crate::effect::{FittedConstants, FormLibrary};
 use crate::form::Form;
 
 fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
@@ -17,9 +17,11 @@ fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
 #[test]
 fn laws_hold_or_are_known_not_to() {
     let mut faults = Vec::new();
-    for entry in EFFECT.forms {
+    for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
         let form = entry.load().unwrap_or_else(|error| panic!("{}: {error}", entry.name));
-        for law in EFFECT.laws.iter().filter(|law| law.references.contains(&entry.reference)) {
+        for law in EFFECT.laws.iter().filter(|law| {
+            law.references.contains(&entry.reference.as_deref().expect("a reference"))
+        }) {
             let violation = (law.violation)(&|columns| in_f32(&form, columns));
             let known = law.known_violations.iter().any(|(name, _)| *name == entry.name);
             println!("{}: {} {violation:.3e} (known: {known})", entry.name, law.name);
@@ -66,10 +68,13 @@ fn forms_are_as_accurate_as_measured() {
         ("finite_density", "hard cases", 1.30e-7),
     ];
     let mut held = 0;
-    for entry in EFFECT.forms {
+    for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
         let form = entry.load().unwrap_or_else(|error| panic!("{}: {error}", entry.name));
-        let reference =
-            EFFECT.references.iter().find(|r| r.name == entry.reference).expect("registered");
+        let reference = EFFECT
+            .references
+            .iter()
+            .find(|r| Some(r.name) == entry.reference.as_deref())
+            .expect("registered");
         for region in EFFECT.regions.iter().chain(EFFECT.hard_cases) {
             let table = (region.points)();
             let column =

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::PUBLISHED;
 use super::reference::sine_integral;
 use crate::effect::{Finding, FittedConstants};
+use crate::effects;
 use crate::form::{Form, FormError};
 use crate::numeric::statistics::{mean, rms};
 
@@ -44,7 +44,7 @@ struct Eq29 {
 
 impl Eq29 {
     fn load() -> Result<Self, FormError> {
-        let form = PUBLISHED.load()?;
+        let form = effects::form("sine_integral/published")?.load()?;
         // Both constants have a default in the text.
         let constants = form.parameters().iter().filter_map(|p| p.default).collect();
         Ok(Self { form, constants })

@@ -4,6 +4,7 @@ use super::{Evidence, bare, count};
 use crate::document::{Block, Cell, Column, Section, Table, Verdict};
 use crate::effect::Effect;
 use crate::fit::outcome::{Outcome, Status};
+use crate::registry;
 
 pub(super) fn exact_section(effect: &Effect) -> Section {
     let mut references = Table::new(
@@ -42,12 +43,12 @@ pub(super) fn exact_section(effect: &Effect) -> Section {
             Column::code("text"),
         ],
     );
-    for form in effect.forms {
+    for form in registry::forms_of(effect) {
         forms.push(vec![
-            Cell::text(form.name),
-            Cell::text(form.description),
-            Cell::text(form.citation),
-            Cell::text(form.path),
+            Cell::text(form.name.clone()),
+            Cell::text(form.description.clone()),
+            Cell::text(form.citation.clone()),
+            Cell::text(form.path.clone()),
         ]);
     }
     Section::new("What is exact, and what approximates it").block(references).block(forms)

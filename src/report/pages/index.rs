@@ -3,6 +3,7 @@
 use super::{Evidence, GateLine, bare, count};
 use crate::document::{Block, Cell, Column, NoticeLevel, Page, Section, Table, Verdict};
 use crate::numeric::measured::Measured;
+use crate::registry;
 
 /// The first page: what there is, how it stands.
 pub fn index_page(effects: &[Evidence<'_>], gates: &[GateLine]) -> Page {
@@ -27,7 +28,7 @@ pub fn index_page(effects: &[Evidence<'_>], gates: &[GateLine]) -> Page {
             .count();
         overview.push(vec![
             Cell::link(evidence.effect.title, format!("{}.html", evidence.effect.name)),
-            count(evidence.effect.forms.len()),
+            count(registry::forms_of(evidence.effect).count()),
             count(fits),
             count(passed),
             count(evidence.gates.len()),

@@ -2,22 +2,22 @@
 
 use super::lobe_errors::{BandForm, Part};
 use super::{LARGE, LEAN, MEDIUM, PRINTED, PRINTED_LARGE};
+use crate::effect::FittedConstants;
 use crate::effect::exhibit::{
     Exhibit, ExhibitAxis, ExhibitCell, ExhibitError, ExhibitPlot, ExhibitSeries, ExhibitTable,
     Stroke,
 };
-use crate::effect::{FittedConstants, FormEntry};
 use crate::form::FormError;
 
 /// Orders in the tables.
 const ORDERS: [u32; 8] = [0, 1, 2, 5, 10, 20, 100, 1000];
 /// Forms shown, with how they are named and drawn.
-const SHOWN: [(&FormEntry, &str, Stroke); 5] = [
-    (&PRINTED, "as printed", Stroke::Strong),
-    (&PRINTED_LARGE, "eq. 27, exact Si", Stroke::Dashed),
-    (&LEAN, "lean", Stroke::Line),
-    (&MEDIUM, "medium", Stroke::Line),
-    (&LARGE, "large", Stroke::Line),
+const SHOWN: [(&str, &str, Stroke); 5] = [
+    (PRINTED, "as printed", Stroke::Strong),
+    (PRINTED_LARGE, "eq. 27, exact Si", Stroke::Dashed),
+    (LEAN, "lean", Stroke::Line),
+    (MEDIUM, "medium", Stroke::Line),
+    (LARGE, "large", Stroke::Line),
 ];
 
 /// What the band integral shows beyond its fits.

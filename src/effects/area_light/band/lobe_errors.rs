@@ -4,8 +4,9 @@
 use std::f64::consts::{PI, TAU};
 
 use super::sinc_squared_band;
+use crate::effect::FittedConstants;
 use crate::effect::fitted_form::FittedForm;
-use crate::effect::{FittedConstants, FormEntry};
+use crate::effects;
 use crate::form::FormError;
 
 /// Which part of the lobe [2πn, 2π(n + 1)].
@@ -37,9 +38,10 @@ impl Part {
 pub(super) struct BandForm(FittedForm);
 
 impl BandForm {
-    /// `entry` with the constants of the fit of its name, or those in its text where there is none.
-    pub(super) fn load(entry: &FormEntry, fitted: &FittedConstants) -> Result<Self, FormError> {
-        FittedForm::new(entry, entry.name, fitted).map(Self)
+    /// The form `name` with the constants of the fit of its name, or those in its text where there is
+    /// none.
+    pub(super) fn load(name: &str, fitted: &FittedConstants) -> Result<Self, FormError> {
+        FittedForm::new(effects::form(name)?, name, fitted).map(Self)
     }
 
     /// Values in f32 on bands.

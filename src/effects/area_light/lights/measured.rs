@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::forms::FORMS;
 use crate::effect::exhibit::ExhibitError;
 use crate::effect::fitted_form::FittedForm;
 use crate::effect::{FittedConstants, Reference};
+use crate::effects;
 use crate::numeric::statistics;
 use crate::table::Table;
 
@@ -16,9 +16,10 @@ impl Loaded {
     /// The form `area_light/name`.
     pub(super) fn new(name: &str, fitted: &FittedConstants) -> Result<Self, ExhibitError> {
         let full = format!("area_light/{name}");
-        let entry = FORMS.iter().find(|form| form.name == full);
-        let entry = entry.ok_or_else(|| ExhibitError(format!("no form is called {full}")))?;
-        FittedForm::new(entry, &full, fitted).map(Self).map_err(|e| ExhibitError(e.to_string()))
+        effects::form(&full)
+            .and_then(|entry| FittedForm::new(entry, &full, fitted))
+            .map(Self)
+            .map_err(|error| ExhibitError(error.to_string()))
     }
 
     /// Values at the points, in f32.

@@ -67,7 +67,6 @@ mod columns;
 mod draws;
 mod exhibits;
 mod findings;
-mod forms;
 mod hard_cases;
 mod hard_exhibit;
 mod laws;
@@ -79,7 +78,6 @@ mod sphere;
 
 pub(super) use exhibits::exhibits;
 pub(super) use findings::findings;
-pub(super) use forms::FORMS;
 pub(super) use hard_cases::HARD_CASES;
 pub(super) use laws::NOT_NEGATIVE;
 pub(super) use regions::REGIONS;

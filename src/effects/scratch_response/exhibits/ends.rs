@@ -6,9 +6,9 @@ use super::{axis, columns, grid, log_grid, series, text};
 use crate::effect::exhibit::{
     Exhibit, ExhibitCell, ExhibitError, ExhibitPlot, ExhibitTable, Stroke,
 };
+use crate::effects;
 use crate::effects::scratch_response::amplitude::along_factor;
-use crate::effects::scratch_response::forms::FORMS;
-use crate::form::{Form, FormError};
+use crate::form::FormError;
 use crate::numeric::statistics::relative_l2;
 
 /// Wavelength and σ of the study, µm; the results depend on σkξ₁ and on ends over σ alone.
@@ -35,11 +35,7 @@ pub(in super::super) fn energy_ratio(begin: f64, end: f64) -> f64 {
 
 /// The registered form as the factor along the scratch: over its value for an infinite scratch at 0.
 fn matched_ends(q: &[f64], begin: f64, end: f64) -> Result<Vec<f64>, FormError> {
-    let entry = FORMS.iter().find(|entry| entry.name == "scratch_response/matched_ends");
-    let form: Form = match entry {
-        Some(entry) => entry.load()?,
-        None => return Ok(vec![f64::NAN; q.len()]),
-    };
+    let form = effects::form("scratch_response/matched_ends")?.load()?;
     let all = |value: f64| vec![value; q.len()];
     // |𝒟|² = 4 at a quarter of the wavelength; the profile is then 8 (W/λ)².
     let (width, depth) = (WAVELENGTH_UM, 0.25 * WAVELENGTH_UM);
