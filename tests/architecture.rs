@@ -119,10 +119,16 @@ fn every_registered_item_is_described() {
                 assert!(!text.is_empty(), "{} is not described", reference.name);
             }
         }
-        for form in effect.forms {
+        for form in striae::registry::Registry::builtin().forms_of(effect) {
             assert!(form.name.starts_with(&format!("{}/", effect.name)), "{}", form.name);
             assert!(!form.description.is_empty() && !form.citation.is_empty(), "{}", form.name);
-            assert!(root().join(form.path).is_file(), "{} names no file: {}", form.name, form.path);
+            assert!(form.reference.is_some(), "{} approximates nothing", form.name);
+            assert!(
+                root().join(&form.path).is_file(),
+                "{} names no file: {}",
+                form.name,
+                form.path
+            );
         }
     }
 }

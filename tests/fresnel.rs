@@ -161,8 +161,8 @@ fn defaults(form: &Form) -> Vec<f32> {
 
 #[test]
 fn every_form_keeps_every_law_that_it_is_not_known_to_break() {
-    for entry in EFFECT.forms {
-        let form = form(entry.name);
+    for entry in Registry::builtin().forms_of(&EFFECT) {
+        let form = form(&entry.name);
         let constants = defaults(&form);
         let evaluate = |inputs: &[Vec<f32>]| {
             let columns: Vec<&[f32]> = inputs.iter().map(Vec::as_slice).collect();
@@ -188,8 +188,10 @@ fn every_form_keeps_every_law_that_it_is_not_known_to_break() {
 fn forms_take_columns_of_the_family() {
     let members = members(false);
     let table = &members[0].table;
-    for entry in EFFECT.forms.iter().filter(|entry| entry.reference == "fresnel_conductor") {
-        for column in form(entry.name).input_columns() {
+    for entry in Registry::builtin().forms_of(&EFFECT)
+        .filter(|entry| entry.reference.as_deref() == Some("fresnel_conductor"))
+    {
+        for column in form(&entry.name).input_columns() {
             assert!(table.column(&column).is_some(), "{}: no column {column}", entry.name);
         }
     }

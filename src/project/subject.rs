@@ -129,9 +129,9 @@ impl Project {
     /// # Errors
     /// If the form does not load.
     pub fn subject_of_form(&self, entry: &FormEntry) -> Result<Option<Subject>, ProjectError> {
-        let approximates = match (entry.family(), entry.reference()) {
-            (Some(family), _) => Approximated::Family(family.to_owned()),
-            (None, Some(reference)) => Approximated::Reference(reference.to_owned()),
+        let approximates = match (&entry.family, &entry.reference) {
+            (Some(family), _) => Approximated::Family(family.clone()),
+            (None, Some(reference)) => Approximated::Reference(reference.clone()),
             (None, None) => return Ok(None),
         };
         let candidate = match self.unfitted(entry) {

@@ -40,11 +40,15 @@ impl Run {
                 gates.iter().copied().filter(own).collect()
             })
             .collect();
+        let registry = self.project.registry();
+        let forms = studied.iter().map(|studied| registry.forms_of(studied.effect).collect());
+        let forms: Vec<Vec<_>> = forms.collect();
         let evidence: Vec<Evidence<'_>> = studied
             .iter()
-            .zip(&of)
-            .map(|(studied, gates)| Evidence {
+            .zip(of.iter().zip(&forms))
+            .map(|(studied, (gates, forms))| Evidence {
                 effect: studied.effect,
+                forms,
                 study: &studied.study,
                 costs: &studied.costs,
                 subjects: &studied.subjects,

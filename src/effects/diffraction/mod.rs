@@ -56,7 +56,6 @@ mod claims;
 mod error;
 mod exhibits;
 mod far_field;
-mod forms;
 mod illuminant;
 mod laws;
 mod orders;
@@ -93,7 +92,11 @@ pub use table::{
     relative_l2,
 };
 
-use crate::effect::{DomainError, Effect, Evaluate, Quantity, Reference};
+use include_dir::{Dir, include_dir};
+
+use crate::effect::{DomainError, Effect, Evaluate, FormText, Quantity, Reference};
+
+static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/diffraction/forms");
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -103,16 +106,15 @@ pub const EFFECT: Effect = Effect {
                   from measured or simulated heights or from a pattern at one wavelength. Renderers \
                   filter environments with it; the powers of orders check it.",
     references: &[SINUSOID, ZERO_ORDER, FIRST_ORDER, RECTANGLE],
-    forms: forms::FORMS,
+    forms: || FormText::embedded("src/effects/diffraction/forms", &FORMS),
     simulators: &[simulate::SIMULATOR],
-    families: &[],
     regions: regions::REGIONS,
     hard_cases: &[regions::HARD_CASES],
     laws: laws::LAWS,
-    goals: &[],
     baselines: &["diffraction/zero_first_order", "diffraction/one_first_order"],
     claims: claims::CLAIMS,
     exhibits: exhibits::exhibits,
+    ..Effect::EMPTY
 };
 
 const ORDER: Quantity = Quantity { name: "order", unit: "1", domain: "whole, 0 to 10" };

@@ -46,7 +46,6 @@
 mod claims;
 mod end;
 mod exhibits;
-mod forms;
 mod hard_cases;
 mod laws;
 mod line;
@@ -57,7 +56,11 @@ mod regions;
 pub use end::{ScratchEnd, response_at_end};
 pub use reference::{coverage, response};
 
-use crate::effect::{DomainError, Effect, Evaluate, Goal, Quantity, Reference};
+use include_dir::{Dir, include_dir};
+
+use crate::effect::{DomainError, Effect, Evaluate, FormText, Goal, Quantity, Reference};
+
+static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/footprint/forms");
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -68,9 +71,7 @@ pub const EFFECT: Effect = Effect {
                   both once per scratch and pixel; they make thin scratches connected lines \
                   instead of dotted ones.",
     references: &[RESPONSE, COVERAGE, END],
-    forms: forms::FORMS,
-    simulators: &[],
-    families: &[],
+    forms: || FormText::embedded("src/effects/footprint/forms", &FORMS),
     regions: regions::REGIONS,
     hard_cases: hard_cases::HARD_CASES,
     laws: laws::LAWS,
@@ -94,6 +95,7 @@ pub const EFFECT: Effect = Effect {
     baselines: &["footprint/eq16", "footprint/coverage_blend_area", "footprint/end_contained"],
     claims: claims::CLAIMS,
     exhibits: exhibits::exhibits,
+    ..Effect::EMPTY
 };
 
 const H: Quantity = Quantity { name: "h", unit: "1", domain: "[0, 1e4]" };

@@ -35,14 +35,17 @@
 //! `rational_tied` makes use of that.
 
 mod claims;
-mod forms;
 mod hard_cases;
 mod laws;
 pub mod materials;
 pub mod reference;
 
-use crate::effect::{DomainError, Effect, Evaluate, Quantity, Reference, Region};
+use include_dir::{Dir, include_dir};
+
+use crate::effect::{DomainError, Effect, Evaluate, FormText, Quantity, Reference, Region};
 use crate::table::{Column, Table};
+
+static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/fresnel/forms");
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -52,16 +55,14 @@ pub const EFFECT: Effect = Effect {
                   colour of a metal and of its edges, the sheen of glass. Every microfacet model \
                   evaluates it once per light and colour channel.",
     references: &[CONDUCTOR, DIELECTRIC, SCHLICK_WEIGHT],
-    forms: forms::FORMS,
-    simulators: &[],
+    forms: || FormText::embedded("src/effects/fresnel/forms", &FORMS),
     families: &[materials::FAMILY],
     regions: &[ALL_ANGLES],
     hard_cases: &[hard_cases::HARD_CASES],
     laws: laws::LAWS,
-    goals: &[],
     baselines: &["fresnel/schlick"],
     claims: claims::CLAIMS,
-    exhibits: |_| Ok(Vec::new()),
+    ..Effect::EMPTY
 };
 
 const MU: Quantity = Quantity { name: "mu", unit: "1", domain: "[0, 1]" };

@@ -68,7 +68,6 @@ mod columns;
 mod draws;
 mod errors;
 mod exhibits;
-mod forms;
 mod hard_cases;
 mod hard_exhibit;
 mod laws;
@@ -79,7 +78,6 @@ mod sphere;
 
 pub(super) use claims::CLAIMS;
 pub(super) use exhibits::exhibits;
-pub(super) use forms::FORMS;
 pub(super) use hard_cases::HARD_CASES;
 pub(super) use laws::NOT_NEGATIVE;
 pub(super) use regions::REGIONS;

@@ -1,3 +1,5 @@
+// uses: hermite
+
 // Abramowitz & Stegun, table 25.10.
 const NODE_COUNT: u32 = 7u;
 const NODES = array<f32, 7>(-2.651961357, -1.673551629, -0.8162878829, 0.0, 0.8162878829, 1.673551629, 2.651961357);

@@ -1,3 +1,8 @@
+// approximates: sinc_squared_band
+// about: up to one period a fitted rule of four nodes, beyond it the complement over a cubic; 9 constants
+// cites: striae
+// uses: complement, rule_of_four
+
 // As band_medium.wgsl, one degree lower beyond one period:
 //   H(u) = 1/(u + shift) + (n_a + n_b u + c_a cos u + (s_a + d_c u) sin u) / d,
 //   d = 1 + d_a u + d_b u^2 + d_c u^3, n_b = shift d_c.

@@ -1,3 +1,8 @@
+// approximates: sine_integral
+// about: table from the reference, linear between entries, asymptotic tail beyond
+// cites: striae
+// uses: phase
+
 // Si(x) from a table of {{COUNT}} entries, linear between them, at u = 0 to u = {{LAST}} in equal
 // steps; beyond, the first two terms of the asymptotic series, pi/2 - cos(u)/u - sin(u)/u^2.
 //

@@ -1,3 +1,8 @@
+// approximates: sinc_squared_band
+// about: up to one period a fitted rule of four nodes, beyond it the complement over a quartic; 13 constants
+// cites: striae
+// uses: complement, rule_of_four
+
 // B(x0, x1), the integral of sinc^2(t/2), without cancellation. Up to one period a quadrature rule whose
 // terms all have one sign; beyond it 2 (H(a) - H(b)), or 2 (pi - H(a) - H(b)) across 0, with
 //   H(u) = 1/(u + shift) + (n_a + n_b u + n_c u^2 + (c_a + c_b u) cos u + (s_a + s_b u + d_d u^2) sin u) / d,

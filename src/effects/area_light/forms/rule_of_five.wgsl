@@ -1,3 +1,4 @@
+// uses: band_phase
 
 // A rule of five nodes for bands up to one period: mean = sum of w sinc^2(t/2), all terms of one sign.
 // The rule of Gauss (0.5385, 0.9062, weights 0.2393, 0.1185) has errors to 3.1e-5; these are fitted to

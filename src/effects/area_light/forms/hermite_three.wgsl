@@ -1,3 +1,5 @@
+// uses: hermite
+
 // Abramowitz & Stegun, table 25.10.
 const NODE_COUNT: u32 = 3u;
 const NODES = array<f32, 3>(-1.224744871, 0.0, 1.224744871);

@@ -1,3 +1,5 @@
+// uses: error_function
+
 const HALF_ROOT_PI: f32 = 0.88622692545275801;
 const REACH: f32 = 2.5;
 // Three Gauss-Legendre nodes, Abramowitz & Stegun, table 25.4.

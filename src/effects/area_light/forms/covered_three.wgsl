@@ -1,3 +1,5 @@
+// uses: covered
+
 // Gauss-Legendre, Abramowitz & Stegun, table 25.4, over what the light covers of |ks xi_1| < REACH.
 const REACH: f32 = 2.0;
 const NODE_COUNT: u32 = 3u;

@@ -1,3 +1,5 @@
+// uses: hermite
+
 // Abramowitz & Stegun, table 25.10.
 const NODE_COUNT: u32 = 5u;
 const NODES = array<f32, 5>(-2.02018287, -0.9585724646, 0.0, 0.9585724646, 2.02018287);

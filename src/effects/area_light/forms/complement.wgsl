@@ -1,3 +1,4 @@
+// uses: band_phase
 
 // The band integral, of either sign: up to one period the rule, beyond it the complement H, of which
 // `excess` gives H(u) - 1 / (u + shift).

@@ -1,3 +1,5 @@
+// uses: error_function
+
 const HALF_ROOT_PI: f32 = 0.88622692545275801;
 
 // Gauss-Legendre nodes across the part of the Gaussian that the light covers, t = ks xi_1. Their

@@ -1,3 +1,8 @@
+// approximates: sinc_squared_band
+// about: up to one period a fitted rule of five nodes, beyond it the complement over a sextic; 19 constants
+// cites: striae
+// uses: complement, rule_of_five
+
 // As band_medium.wgsl, two degrees higher beyond one period:
 //   H(u) = 1/(u + shift) + (n + c cos u + s sin u) / d, with polynomials in u
 //   n = n_a + n_b u + n_c u^2 + n_d u^3 + n_e u^4, c = c_a + c_b u + c_c u^2 + c_d u^3,

@@ -1,3 +1,4 @@
+// uses: band_phase
 
 // A rule of four nodes for bands up to one period: mean = sum of w sinc^2(t/2), all terms of one sign.
 // The rule of Gauss has nodes 0.3400, 0.8611 and a first weight of 0.3261 (errors to 1.1e-3); these are

@@ -1,3 +1,5 @@
+// uses: sphere
+
 // Velinov, Werner & Hullin 2018, eq. 31: the disc of the sphere's radius at the distance of its
 // centre, of half-angle atan(r/p), in place of the silhouette asin(r/p).
 fn sphere_light(kw: f32, ks: f32, view: vec2<f32>, centre: vec3<f32>, radius: f32) -> f32 {

@@ -1,3 +1,5 @@
+// uses: sphere
+
 fn sphere_light(kw: f32, ks: f32, view: vec2<f32>, centre: vec3<f32>, radius: f32) -> f32 {
     // Any unit of length: nothing overflows if the largest number is 1.
     let largest = abs(centre);

@@ -1,3 +1,5 @@
+// uses: triangle
+
 fn largest(v: vec3<f32>) -> f32 {
     let magnitude = abs(v);
     return max(max(magnitude.x, magnitude.y), magnitude.z);
