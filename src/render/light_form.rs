@@ -1,11 +1,10 @@
 //! The form that shades one kind of light, with the constants that ship.
 
-use std::collections::BTreeMap;
 use std::path::{Component, Path};
 
-use crate::fit::FitResult;
-use crate::fit::outcome::Outcome;
-use crate::form::{Form, Parameter, ScalarType};
+use crate::form::{Form, ScalarType};
+use crate::project::Project;
+use crate::registry::Registry;
 
 use super::error::RenderError;
 
@@ -59,25 +58,11 @@ impl LightForm {
         if !is_in_project(name) {
             return Err(unsuited(name, kind, "expected a name inside the project".into()));
         }
-        let project = fits.parent().unwrap_or(Path::new("."));
-        let (form, fitted) = if let Some(form) = name.strip_prefix("form:") {
-            (registered(form, name, kind)?, BTreeMap::new())
-        } else if let Some((file, function)) = name.split_once(".wgsl#") {
-            (in_file(&format!("{file}.wgsl"), function, project, name, kind)?, BTreeMap::new())
-        } else {
-            let outcome = fit(name, kind, fits)?;
-            let form = match outcome.form.ends_with(".wgsl") {
-                true => in_file(&outcome.form, &outcome.function, project, name, kind)?,
-                false => registered(&outcome.form, name, kind)?,
-            };
-            (form, outcome.parameters)
-        };
-        let constant = |parameter: &Parameter| {
-            let fitted = fitted.get(&parameter.name).map(|p| p.f32);
-            let value = fitted.or(parameter.default.map(|value| value as f32));
-            value.ok_or_else(|| unsuited(name, kind, format!("`{}` has no value", parameter.name)))
-        };
-        let constants = form.parameters().iter().map(constant).collect::<Result<_, _>>()?;
+        let root = fits.parent().unwrap_or(Path::new("."));
+        let found = Project::at(root, Registry::builtin())
+            .candidate(name)
+            .map_err(|error| unsuited(name, kind, error.to_string()))?;
+        let (form, constants) = (found.form, found.constants_f32);
         Self { name: name.to_owned(), form, constants }.suited(kind)
     }
 
@@ -117,40 +102,4 @@ pub(super) fn is_in_project(name: &str) -> bool {
 
 fn unsuited(name: &str, kind: LightKind, what: String) -> RenderError {
     RenderError::Unsuited { name: name.to_owned(), kind: kind.word(), what }
-}
-
-fn registered(form: &str, name: &str, kind: LightKind) -> Result<Form, RenderError> {
-    let entry = crate::registry::Registry::builtin()
-        .form(form)
-        .ok_or_else(|| unsuited(name, kind, format!("no form {form} is registered")))?;
-    Ok(entry.load()?)
-}
-
-fn in_file(
-    file: &str,
-    function: &str,
-    project: &Path,
-    name: &str,
-    kind: LightKind,
-) -> Result<Form, RenderError> {
-    if !is_in_project(file) {
-        return Err(unsuited(name, kind, format!("{file} is not in the project")));
-    }
-    let text = std::fs::read_to_string(project.join(file))
-        .map_err(|error| unsuited(name, kind, format!("{file}: {error}")))?;
-    Ok(Form::parse(file, &text, function)?)
-}
-
-fn fit(name: &str, kind: LightKind, fits: &Path) -> Result<Outcome, RenderError> {
-    let path = fits.join(format!("{name}.json"));
-    if !path.is_file() {
-        return Err(unsuited(name, kind, format!("there is no fit {}", path.display())));
-    }
-    match FitResult::read(&path) {
-        Ok(FitResult::Single(outcome)) => Ok(*outcome),
-        Ok(FitResult::Family(_)) => {
-            Err(unsuited(name, kind, "it is a family, not a single fit".into()))
-        }
-        Err(error) => Err(unsuited(name, kind, error.to_string())),
-    }
 }
