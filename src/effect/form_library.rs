@@ -116,27 +116,27 @@ impl FormLibrary {
         let mut definitions = Vec::new();
         let mut added = Vec::new();
         for (owner, text) in texts {
+            let place = |line| Place { path: text.path.clone(), line };
             if text.is_combinations() {
-                definitions.extend(text.combinations()?.into_iter().map(|d| (owner.clone(), d)));
+                let forms = text.combinations()?.into_iter();
+                definitions.extend(forms.map(|(line, form)| (owner.clone(), place(line), form)));
                 continue;
             }
-            let (piece, definition) = text.read()?;
-            let place = Place { path: piece.path.clone(), line: 0 };
+            let (piece, form) = text.read()?;
             let name = format!("{owner}/{}", text.name);
-            if let Some(other) = self.pieces.get(&name) {
-                let fault = FormTextFault::Taken { name, by: other.path.clone() };
-                return Err(FormTextError { place, fault });
+            if let Some(other) = self.pieces.insert(name.clone(), piece) {
+                let fault = FormTextFault::Taken { name, by: other.path };
+                return Err(FormTextError { place: place(0), fault });
             }
-            self.pieces.insert(name.clone(), piece);
-            added.push((name, place));
-            definitions.extend(definition.map(|definition| (owner, definition)));
+            added.push((name, place(0)));
+            definitions.extend(form.map(|form| (owner, place(1), form)));
         }
         // Pieces that no form uses are to be without fault too.
         for (name, place) in &added {
             self.follow("", name, place, &mut Vec::new(), &mut Vec::new())?;
         }
-        for (owner, definition) in definitions {
-            let entry = self.entry(effects, &owner, definition)?;
+        for (owner, place, form) in definitions {
+            let entry = self.entry(effects, &owner, &place, form)?;
             self.entries.push(entry);
         }
         self.entries.sort_by_key(|entry| rank(effects, entry));
@@ -147,37 +147,34 @@ impl FormLibrary {
         &self,
         effects: &[&Effect],
         owner: &str,
+        place: &Place,
         form: Definition,
     ) -> Result<FormEntry, FormTextError> {
-        let fails =
-            |line, fault| Err(FormTextError { place: Place { line, ..form.place.clone() }, fault });
+        let fails = |fault| Err(FormTextError { place: place.clone(), fault });
         let name = format!("{owner}/{}", form.name);
         if let Some(other) = self.get(&name) {
-            return fails(form.place.line, FormTextFault::Taken { name, by: other.path.clone() });
+            return fails(FormTextFault::Taken { name, by: other.path.clone() });
         }
-        if let Some((line, reference)) = &form.approximates
-            && !effects.iter().flat_map(|e| e.references).any(|r| r.name == reference)
+        let mut references = effects.iter().flat_map(|effect| effect.references);
+        if let Some(reference) = &form.approximates
+            && !references.any(|known| known.name == reference)
         {
-            return fails(*line, FormTextFault::UnknownReference(reference.clone()));
+            return fails(FormTextFault::UnknownReference(reference.clone()));
         }
         let mut used = Vec::new();
-        for piece in &form.uses {
-            self.follow(owner, piece, &form.place, &mut Vec::new(), &mut used)?;
+        for text in &form.uses {
+            self.follow(owner, text, place, &mut Vec::new(), &mut used)?;
         }
         let (path, source) = self.assembled(&used);
-        let reference = form.approximates.map(|(_, name)| name);
-        let function = form.function.or_else(|| reference.clone()).unwrap_or(form.name);
-        let (description, citation) = (form.about, form.cites);
-        let constants_of = form.constants;
         Ok(FormEntry {
+            function: form.function.or_else(|| form.approximates.clone()).unwrap_or(form.name),
             name,
-            description,
-            citation,
+            description: form.about,
+            citation: form.cites,
             path,
             source,
-            function,
-            reference,
-            constants_of,
+            reference: form.approximates,
+            constants_of: form.constants,
         })
     }
 
@@ -333,7 +330,7 @@ mod tests {
         assert_eq!(same_name, "f/b.wgsl:1: `faulty/a` is registered already, by f/a.wgsl");
         let reference =
             fault(|| vec![file("f/a.wgsl", "// about: a\n// cites: b\n// approximates: c\n", "")]);
-        assert_eq!(reference, "f/a.wgsl:3: there is no reference `c`");
+        assert_eq!(reference, "f/a.wgsl:1: there is no reference `c`");
     }
 
     #[test]
