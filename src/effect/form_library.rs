@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::Effect;
-use super::form_text::{Definition, FormText, FormTextError, FormTextFault, Piece, Place, entries};
+use super::form_text::{
+    Definition, FormText, FormTextError, FormTextFault, Piece, TextPlace, entries,
+};
 use crate::form::{Form, FormError};
 
 /// What forms are called that stand in no folder of their own: `own/form`.
@@ -116,7 +118,7 @@ impl FormLibrary {
         let mut definitions = Vec::new();
         let mut added = Vec::new();
         for (owner, text) in texts {
-            let place = |line| Place { path: text.path.clone(), line };
+            let place = |line| TextPlace { path: text.path.clone(), line };
             if text.is_combinations() {
                 let forms = text.combinations()?.into_iter();
                 definitions.extend(forms.map(|(line, form)| (owner.clone(), place(line), form)));
@@ -147,7 +149,7 @@ impl FormLibrary {
         &self,
         effects: &[&Effect],
         owner: &str,
-        place: &Place,
+        place: &TextPlace,
         form: Definition,
     ) -> Result<FormEntry, FormTextError> {
         let fails = |fault| Err(FormTextError { place: place.clone(), fault });
@@ -184,7 +186,7 @@ impl FormLibrary {
         &self,
         owner: &str,
         used: &str,
-        from: &Place,
+        from: &TextPlace,
         open: &mut Vec<String>,
         found: &mut Vec<String>,
     ) -> Result<(), FormTextError> {
@@ -203,7 +205,7 @@ impl FormLibrary {
         open.push(name.clone());
         let owner = name.split_once('/').map_or("", |(owner, _)| owner);
         for (line, used) in &piece.uses {
-            let from = Place { path: piece.path.clone(), line: *line };
+            let from = TextPlace { path: piece.path.clone(), line: *line };
             self.follow(owner, used, &from, open, found)?;
         }
         open.pop();
@@ -238,7 +240,7 @@ fn texts_of(effects: &[&Effect]) -> Vec<(String, FormText)> {
     effects.iter().flat_map(texts).collect()
 }
 
-/// Place in the order of the library.
+/// TextPlace in the order of the library.
 fn rank(effects: &[&Effect], entry: &FormEntry) -> (usize, usize, bool) {
     let Some(at) = effects.iter().position(|effect| effect.name == entry.owner()) else {
         return (effects.len(), 0, false);

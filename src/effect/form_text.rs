@@ -71,14 +71,14 @@ pub struct FormText {
 #[error("{place}: {fault}")]
 pub struct FormTextError {
     /// Where.
-    pub place: Place,
+    pub place: TextPlace,
     /// What is wrong there.
     pub fault: FormTextFault,
 }
 
 /// A line of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct TextPlace {
     /// Path of the file.
     pub path: String,
     /// Line, from 1; 0 for the file as a whole.
@@ -165,7 +165,7 @@ struct Combinations {
     form: Vec<toml::Spanned<Definition>>,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for TextPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.line {
             0 => write!(f, "{}", self.path),
@@ -254,7 +254,7 @@ impl FormText {
     }
 
     fn error(&self, line: usize, fault: FormTextFault) -> FormTextError {
-        FormTextError { place: Place { path: self.path.clone(), line }, fault }
+        FormTextError { place: TextPlace { path: self.path.clone(), line }, fault }
     }
 }
 
@@ -269,7 +269,7 @@ pub(super) fn entries(folder: &Path) -> Result<Vec<std::path::PathBuf>, FormText
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> FormTextError {
-    let place = Place { path: path.display().to_string(), line: 0 };
+    let place = TextPlace { path: path.display().to_string(), line: 0 };
     FormTextError { place, fault: FormTextFault::Unreadable(error.to_string()) }
 }
 

@@ -15,7 +15,7 @@ pub use candidate::{Candidate, CandidateError, Candidates, ConstantsOf};
 pub use claim::{Claim, ClaimError, Finding, Found};
 use exhibit::{Exhibit, ExhibitError};
 pub use form_library::{FormEntry, FormLibrary};
-pub use form_text::{FormText, FormTextError, FormTextFault, Place};
+pub use form_text::{FormText, FormTextError, FormTextFault, TextPlace};
 use simulator::Simulator;
 
 /// A quantity a reference takes or returns.
