@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::Effect;
-use super::form_text::{Definition, FormText, FormTextError, FormTextFault, Piece, Place, entries};
+use super::form_text::{
+    Definition, FormText, FormTextError, FormTextFault, Piece, TextPlace, entries,
+};
 use crate::form::{Form, FormError};
 
 /// What forms are called that stand in no folder of their own: `own/form`.
@@ -118,27 +120,27 @@ impl FormLibrary {
         let mut definitions = Vec::new();
         let mut added = Vec::new();
         for (owner, text) in texts {
+            let place = |line| TextPlace { path: text.path.clone(), line };
             if text.is_combinations() {
-                definitions.extend(text.combinations()?.into_iter().map(|d| (owner.clone(), d)));
+                let forms = text.combinations()?.into_iter();
+                definitions.extend(forms.map(|(line, form)| (owner.clone(), place(line), form)));
                 continue;
             }
-            let (piece, definition) = text.read()?;
-            let place = Place { path: piece.path.clone(), line: 0 };
+            let (piece, form) = text.read()?;
             let name = format!("{owner}/{}", text.name);
-            if let Some(other) = self.pieces.get(&name) {
-                let fault = FormTextFault::Taken { name, by: other.path.clone() };
-                return Err(FormTextError { place, fault });
+            if let Some(other) = self.pieces.insert(name.clone(), piece) {
+                let fault = FormTextFault::Taken { name, by: other.path };
+                return Err(FormTextError { place: place(0), fault });
             }
-            self.pieces.insert(name.clone(), piece);
-            added.push((name, place));
-            definitions.extend(definition.map(|definition| (owner, definition)));
+            added.push((name, place(0)));
+            definitions.extend(form.map(|form| (owner, place(1), form)));
         }
         // Pieces that no form uses are to be without fault too.
         for (name, place) in &added {
             self.follow("", name, place, &mut Vec::new(), &mut Vec::new())?;
         }
-        for (owner, definition) in definitions {
-            let entry = self.entry(effects, &owner, definition)?;
+        for (owner, place, form) in definitions {
+            let entry = self.entry(effects, &owner, &place, form)?;
             self.entries.push(entry);
         }
         self.entries.sort_by_key(|entry| rank(effects, entry));
@@ -149,44 +151,41 @@ impl FormLibrary {
         &self,
         effects: &[&Effect],
         owner: &str,
+        place: &TextPlace,
         form: Definition,
     ) -> Result<FormEntry, FormTextError> {
-        let fails =
-            |line, fault| Err(FormTextError { place: Place { line, ..form.place.clone() }, fault });
+        let fails = |fault| Err(FormTextError { place: place.clone(), fault });
         let name = format!("{owner}/{}", form.name);
         if let Some(other) = self.get(&name) {
-            return fails(form.place.line, FormTextFault::Taken { name, by: other.path.clone() });
+            return fails(FormTextFault::Taken { name, by: other.path.clone() });
         }
-        if let Some((line, reference)) = &form.approximates
-            && !effects.iter().flat_map(|e| e.references).any(|r| r.name == reference)
+        let mut references = effects.iter().flat_map(|effect| effect.references);
+        if let Some(reference) = &form.approximates
+            && !references.any(|known| known.name == reference)
         {
-            return fails(*line, FormTextFault::UnknownReference(reference.clone()));
+            return fails(FormTextFault::UnknownReference(reference.clone()));
         }
-        if let Some((line, family)) = &form.over
-            && !effects.iter().flat_map(|e| e.families).any(|f| f.name == family)
+        let mut families = effects.iter().flat_map(|effect| effect.families);
+        if let Some(family) = &form.over
+            && !families.any(|known| known.name == family)
         {
-            return fails(*line, FormTextFault::UnknownFamily(family.clone()));
+            return fails(FormTextFault::UnknownFamily(family.clone()));
         }
         let mut used = Vec::new();
-        for piece in &form.uses {
-            self.follow(owner, piece, &form.place, &mut Vec::new(), &mut used)?;
+        for text in &form.uses {
+            self.follow(owner, text, place, &mut Vec::new(), &mut used)?;
         }
         let (path, source) = self.assembled(&used);
-        let family = form.over.map(|(_, name)| name);
-        let reference = form.approximates.map(|(_, name)| name);
-        let function = form.function.or_else(|| reference.clone()).unwrap_or(form.name);
-        let (description, citation) = (form.about, form.cites);
-        let constants_of = form.constants;
         Ok(FormEntry {
+            function: form.function.or_else(|| form.approximates.clone()).unwrap_or(form.name),
             name,
-            description,
-            citation,
+            description: form.about,
+            citation: form.cites,
             path,
             source,
-            function,
-            reference,
-            family,
-            constants_of,
+            reference: form.approximates,
+            family: form.over,
+            constants_of: form.constants,
         })
     }
 
@@ -196,7 +195,7 @@ impl FormLibrary {
         &self,
         owner: &str,
         used: &str,
-        from: &Place,
+        from: &TextPlace,
         open: &mut Vec<String>,
         found: &mut Vec<String>,
     ) -> Result<(), FormTextError> {
@@ -215,7 +214,7 @@ impl FormLibrary {
         open.push(name.clone());
         let owner = name.split_once('/').map_or("", |(owner, _)| owner);
         for (line, used) in &piece.uses {
-            let from = Place { path: piece.path.clone(), line: *line };
+            let from = TextPlace { path: piece.path.clone(), line: *line };
             self.follow(owner, used, &from, open, found)?;
         }
         open.pop();
@@ -250,7 +249,7 @@ fn texts_of(effects: &[&Effect]) -> Vec<(String, FormText)> {
     effects.iter().flat_map(texts).collect()
 }
 
-/// Place in the order of the library.
+/// TextPlace in the order of the library.
 fn rank(effects: &[&Effect], entry: &FormEntry) -> (usize, usize, bool) {
     let Some(at) = effects.iter().position(|effect| effect.name == entry.owner()) else {
         return (effects.len(), 0, false);
@@ -342,7 +341,7 @@ mod tests {
         assert_eq!(same_name, "f/b.wgsl:1: `faulty/a` is registered already, by f/a.wgsl");
         let reference =
             fault(|| vec![file("f/a.wgsl", "// about: a\n// cites: b\n// approximates: c\n", "")]);
-        assert_eq!(reference, "f/a.wgsl:3: there is no reference `c`");
+        assert_eq!(reference, "f/a.wgsl:1: there is no reference `c`");
     }
 
     #[test]

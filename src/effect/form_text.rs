@@ -73,14 +73,14 @@ pub struct FormText {
 #[error("{place}: {fault}")]
 pub struct FormTextError {
     /// Where.
-    pub place: Place,
+    pub place: TextPlace,
     /// What is wrong there.
     pub fault: FormTextFault,
 }
 
 /// A line of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct TextPlace {
     /// Path of the file.
     pub path: String,
     /// Line, from 1; 0 for the file as a whole.
@@ -136,9 +136,6 @@ pub enum FormTextFault {
     Unreadable(String),
 }
 
-/// A value and the line on which it stands.
-pub(super) type Located<T> = (usize, T);
-
 /// A text that forms are put together from.
 #[derive(Debug, Clone)]
 pub(super) struct Piece {
@@ -148,27 +145,34 @@ pub(super) struct Piece {
     pub(super) body: String,
     /// Lines of its header.
     pub(super) header_lines: usize,
-    /// Texts that it calls.
-    pub(super) uses: Vec<Located<String>>,
+    /// Texts that it calls, each with the line that says so.
+    pub(super) uses: Vec<(usize, String)>,
 }
 
-/// What is said of a form.
-#[derive(Debug)]
+/// What is said of a form, in its header or in a list of combinations.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Definition {
-    /// Where.
-    pub(super) place: Place,
     pub(super) name: String,
-    pub(super) about: String,
-    pub(super) cites: String,
-    pub(super) approximates: Option<Located<String>>,
-    pub(super) over: Option<Located<String>>,
-    pub(super) function: Option<String>,
-    pub(super) constants: Vec<String>,
     /// The texts that it is made of.
     pub(super) uses: Vec<String>,
+    pub(super) approximates: Option<String>,
+    #[serde(default)]
+    pub(super) over: Option<String>,
+    pub(super) about: String,
+    pub(super) cites: String,
+    pub(super) function: Option<String>,
+    #[serde(default)]
+    pub(super) constants: Vec<String>,
 }
 
-impl fmt::Display for Place {
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Combinations {
+    form: Vec<toml::Spanned<Definition>>,
+}
+
+impl fmt::Display for TextPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.line {
             0 => write!(f, "{}", self.path),
@@ -216,7 +220,7 @@ impl FormText {
         Path::new(&self.path).ends_with(COMBINATIONS)
     }
 
-    /// The piece that it is, and the form that it registers.
+    /// The piece that it is, and what it says of the form that it registers.
     pub(super) fn read(&self) -> Result<(Piece, Option<Definition>), FormTextError> {
         let mut header = Header::of(self)?;
         let piece = Piece {
@@ -228,55 +232,37 @@ impl FormText {
         if header.values.is_empty() {
             return Ok((piece, None));
         }
-        let name = header.take("form").map_or_else(|| self.name.clone(), |(_, name)| name);
         let definition = Definition {
-            place: self.place(1),
-            name,
+            name: header.take("form").unwrap_or_else(|| self.name.clone()),
+            uses: vec![self.name.clone()],
             about: header.require("about")?,
             cites: header.require("cites")?,
             approximates: header.take("approximates"),
             over: header.take("over"),
-            function: header.take("function").map(|(_, function)| function),
+            function: header.take("function"),
             constants: header.list("constants")?.into_iter().map(|(_, name)| name).collect(),
-            uses: vec![self.name.clone()],
         };
         Ok((piece, Some(definition)))
     }
 
-    /// The forms that a list of combinations registers.
-    pub(super) fn combinations(&self) -> Result<Vec<Definition>, FormTextError> {
-        let line =
-            |at: usize| self.text.as_bytes()[..at].iter().filter(|b| **b == b'\n').count() + 1;
+    /// The forms of a list of combinations, each with its line.
+    pub(super) fn combinations(&self) -> Result<Vec<(usize, Definition)>, FormTextError> {
+        let line = |at: usize| self.text[..at].matches('\n').count() + 1;
         let listed: Combinations = toml::from_str(&self.text).map_err(|error| {
             let line = error.span().map_or(0, |span| line(span.start));
             self.error(line, FormTextFault::Combinations(error.message().to_owned()))
         })?;
-        let defined = |form: Combination| {
-            let line = line(form.name.span().start);
-            if form.uses.is_empty() {
-                return Err(self.error(line, FormTextFault::EmptyValue("uses".into())));
+        let defined = |form: toml::Spanned<Definition>| match line(form.span().start) {
+            line if form.get_ref().uses.is_empty() => {
+                Err(self.error(line, FormTextFault::EmptyValue("uses".into())))
             }
-            Ok(Definition {
-                place: self.place(line),
-                name: form.name.into_inner(),
-                about: form.about,
-                cites: form.cites,
-                approximates: form.approximates.map(|name| (line, name)),
-                over: form.over.map(|name| (line, name)),
-                function: form.function,
-                constants: form.constants,
-                uses: form.uses,
-            })
+            line => Ok((line, form.into_inner())),
         };
         listed.form.into_iter().map(defined).collect()
     }
 
-    fn place(&self, line: usize) -> Place {
-        Place { path: self.path.clone(), line }
-    }
-
     fn error(&self, line: usize, fault: FormTextFault) -> FormTextError {
-        FormTextError { place: self.place(line), fault }
+        FormTextError { place: TextPlace { path: self.path.clone(), line }, fault }
     }
 }
 
@@ -291,7 +277,7 @@ pub(super) fn entries(folder: &Path) -> Result<Vec<std::path::PathBuf>, FormText
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> FormTextError {
-    let place = Place { path: path.display().to_string(), line: 0 };
+    let place = TextPlace { path: path.display().to_string(), line: 0 };
     FormTextError { place, fault: FormTextFault::Unreadable(error.to_string()) }
 }
 
@@ -308,7 +294,7 @@ fn is_text(path: &Path) -> bool {
 /// What a text says of itself, by key.
 struct Header<'a> {
     text: &'a FormText,
-    values: Vec<(&'a str, Located<String>)>,
+    values: Vec<(&'a str, (usize, String))>,
     lines: usize,
 }
 
@@ -349,19 +335,23 @@ impl<'a> Header<'a> {
         Ok(())
     }
 
-    fn take(&mut self, key: &str) -> Option<Located<String>> {
+    fn take_at(&mut self, key: &str) -> Option<(usize, String)> {
         let at = self.values.iter().position(|(known, _)| *known == key)?;
         Some(self.values.remove(at).1)
+    }
+
+    fn take(&mut self, key: &str) -> Option<String> {
+        self.take_at(key).map(|(_, value)| value)
     }
 
     fn require(&mut self, key: &'static str) -> Result<String, FormTextError> {
         let text = self.text;
         let missing = || text.error(1, FormTextFault::MissingKey(key));
-        self.take(key).map(|(_, value)| value).ok_or_else(missing)
+        self.take(key).ok_or_else(missing)
     }
 
-    fn list(&mut self, key: &str) -> Result<Vec<Located<String>>, FormTextError> {
-        let Some((line, value)) = self.take(key) else { return Ok(Vec::new()) };
+    fn list(&mut self, key: &str) -> Result<Vec<(usize, String)>, FormTextError> {
+        let Some((line, value)) = self.take_at(key) else { return Ok(Vec::new()) };
         let part = |part: &str| match part.trim() {
             "" => Err(self.text.error(line, FormTextFault::EmptyValue(key.to_owned()))),
             name => Ok((line, name.to_owned())),
@@ -372,26 +362,6 @@ impl<'a> Header<'a> {
 
 fn is_word(key: &str) -> bool {
     !key.is_empty() && key.chars().all(|c| c.is_ascii_lowercase() || c == '_')
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Combinations {
-    form: Vec<Combination>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Combination {
-    name: toml::Spanned<String>,
-    uses: Vec<String>,
-    approximates: Option<String>,
-    over: Option<String>,
-    about: String,
-    cites: String,
-    function: Option<String>,
-    #[serde(default)]
-    constants: Vec<String>,
 }
 
 #[cfg(test)]
@@ -413,7 +383,7 @@ mod tests {
         let form = form.expect("a form");
         assert_eq!((form.name.as_str(), form.about.as_str()), ("softer", "a: b, c"));
         assert_eq!((form.cites.as_str(), form.function.as_deref()), ("nobody", Some("soft")));
-        assert_eq!(form.approximates, Some((2, "reflectance".to_owned())));
+        assert_eq!(form.approximates.as_deref(), Some("reflectance"));
         assert_eq!(
             (form.constants, form.uses),
             (vec!["other/fit".to_owned()], vec!["soft".into()])
@@ -460,10 +430,13 @@ mod tests {
         let list = |text: String| FormText::new("forms/combinations.toml", text).combinations();
         let forms = list(format!("{entry}\n{entry}constants = ['d']\n")).expect("a list");
         assert_eq!(forms.len(), 2);
-        assert_eq!((forms[1].place.line, forms[1].uses.len()), (8, 2));
-        assert_eq!((&forms[0].constants, &forms[1].constants), (&vec![], &vec!["d".to_owned()]));
+        assert_eq!((forms[1].0, forms[1].1.uses.len()), (7, 2));
+        assert_eq!(
+            (&forms[0].1.constants, &forms[1].1.constants),
+            (&vec![], &vec!["d".to_owned()])
+        );
         for (wrong, line) in
-            [(format!("{entry}aproximates = 'd'\n"), 6), (entry.replace("'x', 'y/z'", ""), 2)]
+            [(format!("{entry}aproximates = 'd'\n"), 6), (entry.replace("'x', 'y/z'", ""), 1)]
         {
             assert_eq!(list(wrong).expect_err("a fault").place.line, line);
         }

@@ -13,7 +13,7 @@ use crate::table::Table;
 pub use candidate::{Candidate, CandidateError, Candidates, ConstantsOf};
 pub use claim::{Claim, ClaimError, Finding, Found};
 pub use form_library::{FormEntry, FormLibrary};
-pub use form_text::{FormText, FormTextError, FormTextFault, Place};
+pub use form_text::{FormText, FormTextError, FormTextFault, TextPlace};
 use simulator::Simulator;
 pub use values::{NoValue, ReferenceValues};
 
