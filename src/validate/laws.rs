@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::effect::{Effect, Law};
+use crate::effect::{Candidate, ConstantsOf, Effect, Law};
 use crate::validate::accuracy::Shipped;
 
 /// How a form stands to a law.
@@ -42,15 +42,10 @@ pub fn judge(effect: &Effect, form_name: &str, shipped: &Shipped) -> Vec<LawVerd
 }
 
 fn verdict(law: &Law, form_name: &str, shipped: &Shipped) -> LawVerdict {
-    let evaluate = |inputs: &[Vec<f32>]| {
-        let columns: Vec<&[f32]> = inputs.iter().map(Vec::as_slice).collect();
-        shipped
-            .form
-            .eval_f32(&shipped.constants_f32, &columns)
-            .map(|mut values| values.swap_remove(0))
-            .unwrap_or_else(|_| vec![f32::NAN; inputs.first().map_or(1, Vec::len)])
-    };
-    let violation = (law.violation)(&evaluate);
+    let Shipped { name, form, constants, constants_f32 } = shipped.clone();
+    let constants_of = ConstantsOf::Fit(name.clone());
+    let candidate = Candidate { name, form, constants, constants_f32, constants_of };
+    let violation = (law.violation)(&|points| candidate.values_for_laws(points));
     let known =
         law.known_violations.iter().find(|(name, _)| *name == form_name || *name == shipped.name);
     let standing = match known {

@@ -57,7 +57,7 @@ mod regions;
 pub use end::{ScratchEnd, response_at_end};
 pub use reference::{coverage, response};
 
-use crate::effect::{DomainError, Effect, Goal, Quantity, Reference};
+use crate::effect::{Effect, Goal, Quantity, Reference, arguments};
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -109,7 +109,7 @@ const RESPONSE: Reference = Reference {
                (tests/footprint.rs)",
     source: "velinov2018 eq. 10 and 13, integrated exactly",
     evaluate: |point| {
-        let [h, s] = exactly(point)?;
+        let [h, s] = arguments(point)?;
         response(h, s)
     },
 };
@@ -124,7 +124,7 @@ const COVERAGE: Reference = Reference {
                (tests/footprint.rs)",
     source: "velinov2018 eq. 17 and 18, integrated exactly",
     evaluate: |point| {
-        let [h, s] = exactly(point)?;
+        let [h, s] = arguments(point)?;
         coverage(h, s)
     },
 };
@@ -146,19 +146,10 @@ const END: Reference = Reference {
     accuracy: "error <= 1e-9 of footprint_response (tests/footprint.rs)",
     source: "velinov2018 eq. 5 with xi_1 = 0, integrated over the footprint",
     evaluate: |point| {
-        let [half_extent, half_length, shear, offset, end] = exactly(point)?;
+        let [half_extent, half_length, shear, offset, end] = arguments(point)?;
         response_at_end(ScratchEnd { half_extent, half_length, shear, offset, end })
     },
 };
-
-/// The arguments, whose number the caller may have got wrong.
-fn exactly<const N: usize>(point: &[f64]) -> Result<[f64; N], DomainError> {
-    point.try_into().map_err(|_| DomainError {
-        quantity: "number of arguments",
-        expected: "that of the reference",
-        got: point.len() as f64,
-    })
-}
 
 #[cfg(test)]
 mod tests;
