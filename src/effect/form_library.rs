@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::Effect;
 use super::form_text::{
     Definition, FormText, FormTextError, FormTextFault, Piece, TextPlace, entries,
 };
+use super::{Candidate, CandidateError, ConstantsOf, Effect};
 use crate::form::{Form, FormError};
 
 /// What forms are called that stand in no folder of their own: `own/form`.
@@ -45,6 +45,14 @@ pub struct FormLibrary {
 }
 
 impl FormEntry {
+    /// The form with the constants of its text.
+    ///
+    /// # Errors
+    /// [`CandidateError`] if the text is not a form or leaves a constant without a value.
+    pub fn written(&self) -> Result<Candidate, CandidateError> {
+        Candidate::new(&self.name, self.load()?, &BTreeMap::new(), ConstantsOf::Text)
+    }
+
     /// Parses and compiles the form.
     ///
     /// # Errors

@@ -81,6 +81,18 @@ pub struct Reference {
     pub evaluate: Evaluate,
 }
 
+/// The arguments of a reference as an array, since the caller may have got their number wrong.
+///
+/// # Errors
+/// [`DomainError`] if there are not N.
+pub fn arguments<const N: usize>(point: &[f64]) -> Result<[f64; N], DomainError> {
+    point.try_into().map_err(|_| DomainError {
+        quantity: "number of arguments",
+        expected: "that of the reference",
+        got: point.len() as f64,
+    })
+}
+
 /// A named region in which forms are judged: for every argument of the reference, its values.
 ///
 /// A form is judged in a region that has a column for every argument of its reference and for
@@ -140,8 +152,9 @@ impl Yardstick {
     }
 }
 
-/// Evaluates a form in f32: columns of inputs to values, all NaN if the columns are not the form's.
-pub type FormValues<'a> = &'a dyn Fn(&[Vec<f32>]) -> Vec<f32>;
+/// Evaluates a form in f32 at the rows of a table, from which it takes its inputs by name; all NaN if
+/// one is not there.
+pub type FormValues<'a> = &'a dyn Fn(&Table) -> Vec<f32>;
 
 /// A property that a form must have whatever its error: oddness, range, monotonicity, end points.
 #[derive(Debug, Clone, Copy)]
@@ -150,8 +163,7 @@ pub struct Law {
     pub name: &'static str,
     /// What is required, with the tolerance and why.
     pub description: &'static str,
-    /// Worst violation over hard points, 0 when the law holds exactly, for an evaluator of the form
-    /// (columns of inputs to values, f32).
+    /// Worst violation over hard points, 0 when the law holds exactly.
     pub violation: for<'a> fn(FormValues<'a>) -> f64,
     /// Largest violation accepted.
     pub tolerance: f64,

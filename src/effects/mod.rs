@@ -10,10 +10,9 @@ pub mod sine_integral;
 /// The forms of `effect` whose text gives every constant a value, with those values.
 #[cfg(test)]
 fn written(effect: &crate::effect::Effect) -> crate::effect::Candidates {
-    use std::collections::BTreeMap;
     use std::sync::Arc;
 
-    use crate::effect::{Candidate, ConstantsOf, FormLibrary};
+    use crate::effect::FormLibrary;
 
     let all = [
         &sine_integral::EFFECT,
@@ -24,11 +23,7 @@ fn written(effect: &crate::effect::Effect) -> crate::effect::Candidates {
         &diffraction::EFFECT,
     ];
     let forms = FormLibrary::new(&all).expect("the texts of the forms");
-    let written = |form: &crate::effect::FormEntry| {
-        let loaded = form.load().expect("a form");
-        Candidate::new(&form.name, loaded, &BTreeMap::new(), ConstantsOf::Text).ok().map(Arc::new)
-    };
-    forms.of(effect.name).filter_map(written).collect()
+    forms.of(effect.name).filter_map(|form| form.written().ok().map(Arc::new)).collect()
 }
 
 #[cfg(test)]

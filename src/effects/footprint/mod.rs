@@ -58,7 +58,7 @@ pub use reference::{coverage, response};
 
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{DomainError, Effect, Evaluate, FormText, Goal, Quantity, Reference};
+use crate::effect::{Effect, Evaluate, FormText, Goal, Quantity, Reference, arguments};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/footprint/forms");
 
@@ -111,7 +111,7 @@ const RESPONSE: Reference = Reference {
                (tests/footprint.rs)",
     source: "velinov2018 eq. 10 and 13, integrated exactly",
     evaluate: Evaluate::Scalar(|point| {
-        let [h, s] = exactly(point)?;
+        let [h, s] = arguments(point)?;
         response(h, s)
     }),
 };
@@ -126,7 +126,7 @@ const COVERAGE: Reference = Reference {
                (tests/footprint.rs)",
     source: "velinov2018 eq. 17 and 18, integrated exactly",
     evaluate: Evaluate::Scalar(|point| {
-        let [h, s] = exactly(point)?;
+        let [h, s] = arguments(point)?;
         coverage(h, s)
     }),
 };
@@ -148,19 +148,10 @@ const END: Reference = Reference {
     accuracy: "error <= 1e-9 of footprint_response (tests/footprint.rs)",
     source: "velinov2018 eq. 5 with xi_1 = 0, integrated over the footprint",
     evaluate: Evaluate::Scalar(|point| {
-        let [half_extent, half_length, shear, offset, end] = exactly(point)?;
+        let [half_extent, half_length, shear, offset, end] = arguments(point)?;
         response_at_end(ScratchEnd { half_extent, half_length, shear, offset, end })
     }),
 };
-
-/// The arguments, whose number the caller may have got wrong.
-fn exactly<const N: usize>(point: &[f64]) -> Result<[f64; N], DomainError> {
-    point.try_into().map_err(|_| DomainError {
-        quantity: "number of arguments",
-        expected: "that of the reference",
-        got: point.len() as f64,
-    })
-}
 
 #[cfg(test)]
 mod tests;

@@ -19,11 +19,10 @@ fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
 fn laws_hold_or_are_known_not_to() {
     let mut faults = Vec::new();
     for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
-        let form = entry.load().unwrap_or_else(|error| panic!("{}: {error}", entry.name));
-        for law in EFFECT.laws.iter().filter(|law| {
-            law.references.contains(&entry.reference.as_deref().expect("a reference"))
-        }) {
-            let violation = (law.violation)(&|columns| in_f32(&form, columns));
+        let candidate = entry.written().expect("a form with its constants");
+        let reference = entry.reference.as_deref().expect("a reference");
+        for law in EFFECT.laws.iter().filter(|law| law.references.contains(&reference)) {
+            let violation = (law.violation)(&|points| candidate.values_for_laws(points));
             let known = law.known_violations.iter().any(|(name, _)| *name == entry.name);
             println!("{}: {} {violation:.3e} (known: {known})", entry.name, law.name);
             if (violation <= law.tolerance) == known {
