@@ -43,7 +43,7 @@ impl Table {
         let bytes = store::read(path)?;
         let origin = path.display().to_string();
         let mut table = Self::parse_csv(&origin, store::text(&origin, &bytes)?, options)?;
-        table.origin = format!("{origin} (sha256 {})", store::sha256_hex(&bytes));
+        table.origin = store::origin(path, &bytes);
         Ok(table)
     }
 
