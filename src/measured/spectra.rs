@@ -33,9 +33,19 @@ pub struct Illuminant {
 }
 
 impl Illuminant {
-    fn of(table: &Table) -> Result<Self, MeasuredError> {
+    /// The illuminant of a table: columns `wavelength`, a length, and `power` \[1\].
+    ///
+    /// # Errors
+    /// [`MeasuredError`] naming the table's origin: no such column, another unit, wavelengths that
+    /// do not increase.
+    pub fn of(table: &Table) -> Result<Self, MeasuredError> {
         let wavelength_nm = increasing(&table.origin, table)?;
         Ok(Self { wavelength_nm, power: table.values_in("power", "1")? })
+    }
+
+    /// The tabulated powers, in the order of increasing wavelength.
+    pub fn powers(&self) -> &[f64] {
+        &self.power
     }
 
     /// Relative power at a wavelength in nm; `None` where it is not tabulated.
@@ -218,8 +228,9 @@ fn xyz_to_linear_srgb(white: Vector3<f64>) -> Option<Matrix3<f64>> {
     (primaries * Matrix3::from_diagonal(&scale)).try_inverse()
 }
 
-/// The nodes that the value at `x` is interpolated from, with their shares.
-fn hat_shares(nodes: &[f64], x: f64) -> [(usize, f64); 2] {
+/// The nodes that the value at `x` is interpolated from, with their shares; a node past the end has
+/// none.
+pub(crate) fn hat_shares(nodes: &[f64], x: f64) -> [(usize, f64); 2] {
     let above = nodes.partition_point(|node| *node < x);
     let below = above.saturating_sub(1);
     match (nodes.get(below), nodes.get(above)) {
