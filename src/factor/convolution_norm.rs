@@ -255,7 +255,8 @@ fn power_spectrum(
 /// direction. Independent of [`ConvolutionNorm`]: no shift, no autocorrelation.
 ///
 /// # Errors
-/// As [`Sampler::new`]; [`LowRankError::Mismatch`] if the factors have other channels or axes.
+/// [`LowRankError::Environment`] for texels that are missing, negative or not finite;
+/// [`LowRankError::Mismatch`] if the factors have other channels or axes.
 pub fn seen_error(
     table: &Grid,
     factors: &LowRank,
