@@ -72,9 +72,29 @@ impl<'a> Sampler<'a> {
         PI / self.environment.height as f64
     }
 
-    /// What counts of the radiance from a unit vector.
-    pub(super) fn at(&self, direction: [f64; 3]) -> f64 {
-        self.radiance.of(self.environment.radiance(direction))
+    fn texel(&self, i: usize, j: usize) -> f64 {
+        let texel = self.environment.radiance.get(j * self.environment.width + i);
+        texel.map_or(0.0, |texel| self.radiance.of(texel.map(f64::from)))
+    }
+
+    /// Radiance from a unit vector, bilinear between texel centres, around in azimuth and held
+    /// towards the poles.
+    ///
+    /// Maps are looked up on over the poles everywhere else
+    /// ([`LatLong`](crate::measured::environment::LatLong)). Here that would move committed factors,
+    /// and pictures made with them by 4e-8.
+    pub(super) fn at(&self, [x, y, z]: [f64; 3]) -> f64 {
+        let (width, height) = (self.environment.width, self.environment.height);
+        let column = y.atan2(x).rem_euclid(TAU) / TAU * width as f64 - 0.5;
+        let row = z.clamp(-1.0, 1.0).acos() / PI * height as f64 - 0.5;
+        let row = row.clamp(0.0, (height - 1) as f64);
+        let (top, down) = (row.floor() as usize, row.fract());
+        let below = (top + 1).min(height - 1);
+        let across = column - column.floor();
+        let left = (column.floor() as i64).rem_euclid(width as i64) as usize;
+        let right = (left + 1) % width;
+        let line = |j| self.texel(left, j) * (1.0 - across) + self.texel(right, j) * across;
+        line(top) * (1.0 - down) + line(below) * down
     }
 }
 
