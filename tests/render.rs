@@ -4,18 +4,14 @@
 use std::path::PathBuf;
 
 use striae::gpu::{self, Device};
-use striae::measured::MeasuredError;
-use striae::measured::spectra::Spectra;
-use striae::render::illumination::Illumination;
+use striae::project::Project;
+use striae::registry::Registry;
 use striae::render::image::Image;
-use striae::render::light_form::{LightForm, LightKind};
-use striae::render::{
-    AnyScene, Backend, Event, RenderedScene, Scene, ShadedBy, approximations, render_with,
-};
+use striae::render::{Backend, Event, PreparedScene, Rendered, Scene, render};
 
 const VIEW: &str = "[view]\nkind = \"equirectangular\"\nwidth = 32\nheight = 16\nexposure = 10\n";
-const SCRATCH: &str = "[scratch]\nwidth_um = 3\ndepth_um = 0.133\ncoherence_radius_um = 20\n\
-    direction_deg = 90\n";
+const SCRATCH: &str = "[geometry]\nshape = \"point\"\ndirection_deg = 90\n\
+    [material]\nkind = \"scratch\"\nwidth_um = 3\ndepth_um = 0.133\ncoherence_radius_um = 20\n";
 const SPHERE: &str = "[[light]]\nkind = \"sphere\"\ncentre = [0.35, 0.1, 1.0]\nradius = 0.2\n\
     radiance = 4\n";
 const POLYGON: &str = "[[light]]\nkind = \"polygon\"\n\
@@ -29,28 +25,22 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn scene(parts: &[&str]) -> Scene {
-    Scene::parse("test", "test.toml", &parts.concat()).expect("a scene")
-}
-
-fn spectra() -> Result<Spectra, MeasuredError> {
-    Spectra::load(&root().join("data/measured/spectra"))
-}
-
 /// Both lights of the tests by registered forms with the constants of their texts.
-fn shaded_by() -> Vec<ShadedBy> {
-    let fits = root().join("fits");
-    let form = |name: &str, kind| LightForm::load(name, kind, &fits).expect("a registered form");
-    vec![ShadedBy {
-        name: "line".into(),
-        sphere: Some(form("form:area_light/sphere_line_exact_si", LightKind::Sphere)),
-        polygon: Some(form("form:area_light/triangle_line_exact_si", LightKind::Polygon)),
-    }]
+const LINE: &str = "[[approximation]]\nname = \"line\"\n\
+    sphere = \"form:area_light/sphere_line_exact_si\"\n\
+    polygon = \"form:area_light/triangle_line_exact_si\"\n";
+
+fn project() -> Project {
+    Project::at(root(), Registry::builtin())
 }
 
-fn rendered(scene: &Scene, shaded_by: &[ShadedBy], backend: Backend<'_>) -> RenderedScene {
-    let lit = Illumination::new(scene, spectra).expect("wavelengths");
-    render_with(scene, &lit, shaded_by, backend, &mut |_| {}).expect("renders")
+fn prepared(parts: &[&str]) -> PreparedScene {
+    let scene = Scene::parse("test", "test.toml", &parts.concat()).expect("a scene");
+    PreparedScene::new(scene, &project()).expect("forms and wavelengths")
+}
+
+fn rendered(scene: &PreparedScene, backend: Backend<'_>) -> Rendered {
+    render(scene, backend, &mut |_| {}).expect("renders")
 }
 
 fn values<'a>(image: &'a Image, prefix: &str) -> Vec<&'a f32> {
@@ -61,8 +51,8 @@ fn values<'a>(image: &'a Image, prefix: &str) -> Vec<&'a f32> {
 #[test]
 fn monte_carlo_agrees_with_the_reference() {
     for light in [SPHERE, POLYGON] {
-        let scene = scene(&[VIEW, SCRATCH, light, RGB, QUADRATURE, MONTE_CARLO]);
-        let rendered = rendered(&scene, &[], Backend::Lanes);
+        let scene = prepared(&[VIEW, SCRATCH, light, RGB, QUADRATURE, MONTE_CARLO]);
+        let rendered = rendered(&scene, Backend::Lanes);
         let metrics = rendered.monte_carlo_metrics.expect("Monte Carlo was asked for");
         let test = metrics.z_test.expect("it has standard errors");
         assert!(test.passes(1e-3), "{test:?}");
@@ -74,12 +64,12 @@ fn monte_carlo_agrees_with_the_reference() {
 
 #[test]
 fn a_closed_form_is_near_the_reference_on_lanes() {
-    let scene = scene(&[VIEW, SCRATCH, SPHERE, POLYGON, RGB, QUADRATURE]);
-    let rendered = rendered(&scene, &shaded_by(), Backend::Lanes);
+    let scene = prepared(&[VIEW, SCRATCH, SPHERE, POLYGON, RGB, QUADRATURE, LINE]);
+    let rendered = rendered(&scene, Backend::Lanes);
     let metrics = &rendered.approximations[0].metrics;
     // One slice for a Gaussian as wide as a fortieth of these lights.
     assert!(metrics.relative_rms < 0.1, "{metrics:?}");
-    assert!(rendered.timings.value().is_none(), "lanes are not timed");
+    assert!(rendered.times.value().is_none(), "lanes are not timed");
 }
 
 #[test]
@@ -90,15 +80,17 @@ fn lanes_and_device_draw_the_same_picture() {
         Err(error) => return println!("skipped: {error}"),
     };
     let few = "[monte_carlo]\nsamples = 256\n";
-    let scene = scene(&[VIEW, SCRATCH, SPHERE, POLYGON, RGB, QUADRATURE, few]);
-    let [here, there] =
-        [Backend::Lanes, Backend::Device(&device)].map(|b| rendered(&scene, &shaded_by(), b));
-    let sampled = |rendered: &RenderedScene| {
+    let scene = prepared(&[VIEW, SCRATCH, SPHERE, POLYGON, RGB, QUADRATURE, few, LINE]);
+    let [here, there] = [Backend::Lanes, Backend::Device(&device)].map(|b| rendered(&scene, b));
+    let sampled = |rendered: &Rendered| {
         rendered.monte_carlo.as_ref().map(|m| m.image.clone()).expect("asked for")
     };
     let pairs = [
         (sampled(&here), sampled(&there)),
-        (here.approximations[0].image.clone(), there.approximations[0].image.clone()),
+        (
+            here.approximations[0].picture.image.clone(),
+            there.approximations[0].picture.image.clone(),
+        ),
     ];
     for (a, b) in pairs {
         for (name, x, y) in a.channels.iter().zip(&b.channels).map(|(x, y)| (&x.name, x, y)) {
@@ -119,8 +111,8 @@ fn a_seed_is_another_picture_and_the_same_seed_the_same() {
     let drawn = |seed: &str| {
         let options = format!("[monte_carlo]\nsamples = 128\nseed = {seed}\n");
         let reference = "[reference]\nmethod = \"monte_carlo\"\n";
-        let scene = scene(&[VIEW, SCRATCH, SPHERE, RGB, reference, &options]);
-        rendered(&scene, &[], Backend::Lanes).reference
+        let scene = prepared(&[VIEW, SCRATCH, SPHERE, RGB, reference, &options]);
+        rendered(&scene, Backend::Lanes).reference
     };
     let first = drawn("1");
     assert_eq!(first, drawn("1"));
@@ -134,11 +126,11 @@ fn a_spectrum_of_many_wavelengths_and_lights_is_the_sum_of_its_kernels() {
     let spectrum = "[spectrum]\nkind = \"spectral\"\nfrom_nm = 400\nto_nm = 700\nsamples = 17\n";
     let picture = |count: usize| {
         let view = VIEW.replace("width = 32\nheight = 16", "width = 8\nheight = 6");
-        let scene = scene(&[&view, SCRATCH, &SPHERE.repeat(count), spectrum, QUADRATURE]);
-        rendered(&scene, &shaded_by(), Backend::Lanes).approximations.remove(0).image
+        let scene = prepared(&[&view, SCRATCH, &SPHERE.repeat(count), spectrum, QUADRATURE, LINE]);
+        rendered(&scene, Backend::Lanes).approximations.remove(0).picture
     };
     let (one, many) = (picture(1), picture(17));
-    for (x, y) in one.channels.iter().zip(&many.channels) {
+    for (x, y) in one.image.channels.iter().zip(&many.image.channels) {
         for (x, y) in x.values.iter().zip(&y.values) {
             assert!((17.0 * x - y).abs() <= 2e-5 * y.abs() + 1e-6, "{x} {y}");
         }
@@ -146,31 +138,60 @@ fn a_spectrum_of_many_wavelengths_and_lights_is_the_sum_of_its_kernels() {
 }
 
 #[test]
-fn the_committed_scenes_read_and_their_forms_load() {
-    let folder = root().join("data/scenes");
-    let mut found = 0;
-    for entry in std::fs::read_dir(folder).expect("scenes") {
-        let path = entry.expect("an entry").path();
-        let scene = AnyScene::read(&path).expect("a scene");
-        assert!(!scene.description().is_empty(), "{}", path.display());
-        // Surfaces have no forms to load: tests/surfaces.rs reads them.
-        let AnyScene::Lobe(scene) = scene else { continue };
-        approximations(&scene, &root().join("fits")).expect("its forms load");
-        found += 1;
+fn the_committed_scenes_read_and_what_they_name_loads() {
+    let scenes = project().scenes().expect("a folder");
+    assert!(scenes.len() >= 8, "{scenes:?}");
+    for path in scenes {
+        let scene = Scene::read(&path).expect("a scene");
+        assert!(!scene.description.is_empty(), "{}", path.display());
+        assert!(!scene.claims.is_empty(), "{}", path.display());
+        // Surfaces simulate their table, which takes a while: tests/surfaces.rs reads them.
+        if scene.frames() == 1 {
+            PreparedScene::new(scene, &project()).expect("its forms load");
+        }
     }
-    assert!(found >= 3, "{found} scenes");
 }
 
 #[test]
 fn events_come_in_order_and_every_image_is_whole() {
-    let scene = scene(&[VIEW, SCRATCH, SPHERE, RGB, QUADRATURE]);
-    let lit = Illumination::new(&scene, spectra).expect("wavelengths");
+    let scene = prepared(&[VIEW, SCRATCH, SPHERE, RGB, QUADRATURE, LINE]);
     let mut seen = Vec::new();
-    render_with(&scene, &lit, &shaded_by(), Backend::Lanes, &mut |event| {
+    render(&scene, Backend::Lanes, &mut |event| {
         if let Event::Image { name, image, whole } = event {
             seen.push((name.to_owned(), whole && image.channels[0].values.len() == 512));
         }
     })
     .expect("renders");
     assert_eq!(seen, [("reference".to_owned(), true), ("line".to_owned(), true)]);
+}
+
+#[test]
+fn a_picture_is_made_once_whoever_asks() {
+    let scene = prepared(&[VIEW, SCRATCH, SPHERE, RGB, QUADRATURE, LINE]);
+    let mut tiles = 0;
+    let mut count = |event: Event<'_>| tiles += i32::from(matches!(event, Event::Tile { .. }));
+    let first = scene.picture(0, Backend::Lanes, &mut count).expect("renders");
+    let again = scene.picture(0, Backend::Lanes, &mut count).expect("it is there");
+    assert!(std::sync::Arc::ptr_eq(&first, &again));
+    let reference = scene.exact(&mut count).expect("it is there");
+    assert!(std::ptr::eq(reference, scene.exact(&mut count).expect("it is there")));
+    // The picture has one tile; the reference was made for its metrics, unwatched.
+    assert_eq!(tiles, 1);
+    // What a render shows is that picture.
+    let rendered = rendered(&scene, Backend::Lanes);
+    assert!(std::sync::Arc::ptr_eq(&first, &rendered.approximations[0].picture));
+    assert!(scene.picture(1, Backend::Lanes, &mut |_| ()).is_err());
+}
+
+#[test]
+fn a_choice_and_claims_are_for_every_scene() {
+    let more = "[choice]\nrelative_rms = 0.2\n[[claim]]\ncheck = \"speed_up\"\n\
+                published = \"line\"\n";
+    let scene = prepared(&[VIEW, SCRATCH, SPHERE, RGB, QUADRATURE, LINE, more]);
+    let rendered = rendered(&scene, Backend::Lanes);
+    assert_eq!(rendered.choice, Some(Ok("line".to_owned())));
+    let findings = striae::render::claims::findings(&scene.scene, &rendered);
+    assert_eq!(findings.len(), 1);
+    assert_eq!(findings[0].place, "velinov2018 abstract and §6 (test)");
+    assert!(findings[0].verdict.starts_with("not measured: "), "{findings:?}");
 }

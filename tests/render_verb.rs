@@ -7,8 +7,8 @@ use assert_cmd::Command;
 use striae::render::image::Image;
 
 const VIEW: &str = "[view]\nkind = \"equirectangular\"\nwidth = 32\nheight = 16\nexposure = 10\n";
-const SCRATCH: &str = "[scratch]\nwidth_um = 3\ndepth_um = 0.133\ncoherence_radius_um = 20\n\
-    direction_deg = 90\n";
+const SCRATCH: &str = "[geometry]\nshape = \"point\"\ndirection_deg = 90\n\
+    [material]\nkind = \"scratch\"\nwidth_um = 3\ndepth_um = 0.133\ncoherence_radius_um = 20\n";
 const SPHERE: &str = "[[light]]\nkind = \"sphere\"\ncentre = [0.35, 0.1, 1.0]\nradius = 0.2\n\
     radiance = 4\n";
 const POLYGON: &str = "[[light]]\nkind = \"polygon\"\n\
@@ -116,14 +116,62 @@ fn bad_scenes_are_refused_with_their_key() {
         ("exposure = 10", "exposure = nan", &["view.exposure", "NaN"]),
         ("exposure = 10", "exposure = 10\ncolour = 1", &["colour", "unknown field"]),
         ("kind = \"equirectangular\"", "kind = \"fisheye\"", &["view.kind", "fisheye"]),
-        ("width_um = 3", "width_um = -3", &["scratch.width_um", "-3"]),
+        ("width_um = 3", "width_um = -3", &["material.width_um", "-3"]),
         ("width_um = 3", "width = 3", &["unknown field `width`"]),
-        ("depth_um = 0.133", "depth_um = -0.1", &["scratch.depth_um"]),
-        ("coherence_radius_um = 20", "coherence_radius_um = 0", &["scratch.coherence_radius_um"]),
+        ("depth_um = 0.133", "depth_um = -0.1", &["material.depth_um"]),
+        ("coherence_radius_um = 20", "coherence_radius_um = 0", &["material.coherence_radius_um"]),
         ("radius = 0.2", "radius = -0.2", &["light[0].radius"]),
         ("radius = 0.2", "radius = nan", &["light[0].radius", "NaN"]),
         ("radius = 0.2", "radius = 2.0", &["light[0].radius", "reaches the scratch"]),
         ("radius = 0.2\n", "", &["light[0].radius", "missing"]),
+        // A wrong type is named by line and key, with what is expected.
+        (
+            "width = 32",
+            "width = \"wide\"",
+            &["scene.toml:3: view.width: expected a whole number", "the string \"wide\""],
+        ),
+        ("radius = 0.2", "radius = [1]", &["light[0].radius: expected a number", "an array of 1"]),
+        ("centre = [0.35, 0.1, 1.0]", "centre = 3", &["light[0].centre: expected 3 numbers"]),
+        ("[spectrum]\n", "[[spectrum]]\n", &["spectrum: expected a table [spectrum]"]),
+        // Sections of earlier schemas say what they have become.
+        (
+            "[material]\n",
+            "[scratch]\n",
+            &["[scratch] is now [material] with kind", "direction_deg"],
+        ),
+        ("[spectrum]\n", "[[frame]]\n[spectrum]\n", &["[frame] is now [[light]] with kind"]),
+        // What means nothing for the material is refused.
+        (
+            "[reference]\n",
+            "[convolution]\nmap_width = 64\n[reference]\n",
+            &["convolution: means nothing with material.kind = \"scratch\""],
+        ),
+        (
+            "shape = \"point\"\n",
+            "shape = \"point\"\nradius = 1\n",
+            &["geometry.radius: means nothing"],
+        ),
+        (
+            "kind = \"sphere\"",
+            "kind = \"environment\"",
+            &["light[0].kind: a scratch at a point is lit by"],
+        ),
+        ("method = \"quadrature\"", "method = \"full\"", &["reference.method: expected"]),
+        (
+            "seed = 3\n",
+            "seed = 3\n[[claim]]\ncheck = \"speed_up\"\npublished = \"none\"\n",
+            &["claim[0].published: there is no approximation `none`"],
+        ),
+        (
+            "seed = 3\n",
+            "seed = 3\n[[claim]]\ncheck = \"frame_rate\"\n",
+            &["claim[0].place: is needed here"],
+        ),
+        (
+            "seed = 3\n",
+            "seed = 3\n[[claim]]\ncheck = \"x\"\n",
+            &["claim[0].check: expected \"si_error\""],
+        ),
         ("radius = 0.2", "radius = 0.2\nvertices = []", &["light[0].vertices"]),
         ("radius = 0.2", "radius = 0.2\ncolour = 1", &["unknown field `colour`"]),
         ("centre = [0.35, 0.1, 1.0]", "centre = [0.35, inf, 1.0]", &["light[0].centre"]),
@@ -208,7 +256,7 @@ fn bad_scenes_are_refused_with_their_key() {
             "seed = 3\n",
             "seed = 3\n[[approximation]]\nname = \"a\"\nsphere = \"x/y\"\n\
             polygon = \"x/y\"\n",
-            &["x/y", "there is no fit"],
+            &["x/y", "there is no reference, fit or form"],
         ),
     ];
     for (from, to, parts) in cases {

@@ -6,9 +6,12 @@ use nalgebra::Vector3;
 use striae::factor::{Alignment, Decomposition};
 use striae::form::{DataTable, Form};
 use striae::gpu::Device;
-use striae::render::Backend;
+use striae::project::Project;
+use striae::registry::Registry;
+use striae::render::geometry::{Frame, Hit};
 use striae::render::sphere_map::{AngularKernel, AzimuthalOperator, SphereMap, convolved};
-use striae::render::surface::{Frame, Point, SurfaceScene, integrals, surface_sums, table_taps};
+use striae::render::surface::{integrals, surface_sums, table_taps};
+use striae::render::{self, Backend, PreparedScene, Scene};
 use striae::table::{Axis, Channel, Grid};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -103,18 +106,15 @@ fn a_uniform_environment_gives_the_albedo() {
     }
 }
 
-fn points() -> Vec<Point> {
+fn hits() -> Vec<Hit> {
     let frame = Frame::new([0.2, -0.1, 1.0], [1.0, 0.3, 0.0], 0.4);
     (0..40)
         .map(|at| {
             let (polar, azimuth) = (0.03 * f64::from(at), 0.7 * f64::from(at));
             let flat: Vector3<f64> =
                 frame.tangents[0] * azimuth.cos() + frame.tangents[1] * azimuth.sin();
-            Point {
-                normal: frame.normal,
-                along: frame.tangents[0],
-                reflection: frame.normal * polar.cos() + flat * polar.sin(),
-            }
+            let reflection = frame.normal * polar.cos() + flat * polar.sin();
+            Hit::of_directions(Frame::of(frame.normal, frame.tangents[0]), reflection)
         })
         .collect()
 }
@@ -133,8 +133,8 @@ fn at_normal_incidence_the_convolution_is_the_integral() {
     let (sin, cos) = polar.sin_cos();
     let normal = Vector3::new(sin * azimuth.cos(), sin * azimuth.sin(), cos);
     let along = Vector3::new(-azimuth.sin(), azimuth.cos(), 0.0);
-    let point = Point { normal, along, reflection: normal };
-    let exact = integrals(&map, &[point], &table_taps(&table))[0];
+    let hit = Hit::of_directions(Frame::of(normal, along), normal);
+    let exact = integrals(&map, &[hit], &table_taps(&table))[0];
     let at = 3 * (row * 128 + column) as usize;
     for (channel, exact) in exact.iter().enumerate() {
         let found = f64::from(convolved.rgb[at + channel]);
@@ -145,9 +145,9 @@ fn at_normal_incidence_the_convolution_is_the_integral() {
 
 #[test]
 fn sums_in_f32_follow_the_reference() {
-    let (map, taps, points) = (smooth_map(32), table_taps(&table(33)), points());
-    let exact = integrals(&map, &points, &taps);
-    let lanes = surface_sums(&map, &points, &taps, Backend::Lanes).expect("lanes");
+    let (map, taps, hits) = (smooth_map(32), table_taps(&table(33)), hits());
+    let exact = integrals(&map, &hits, &taps);
+    let lanes = surface_sums(&map, &hits, &taps, Backend::Lanes).expect("lanes");
     for (channel, column) in lanes.iter().enumerate() {
         for (value, exact) in column.iter().zip(&exact) {
             let error = (f64::from(*value) / exact[channel] - 1.0).abs();
@@ -159,7 +159,7 @@ fn sums_in_f32_follow_the_reference() {
         Err(error) if striae::gpu::required() => panic!("{error}"),
         Err(error) => return println!("skipped: {error}"),
     };
-    let found = surface_sums(&map, &points, &taps, Backend::Device(&device)).expect("a kernel");
+    let found = surface_sums(&map, &hits, &taps, Backend::Device(&device)).expect("a kernel");
     for (device, lanes) in found.iter().zip(&lanes) {
         assert!(relative_rms(device, lanes) < 1e-4);
     }
@@ -198,8 +198,8 @@ fn scenes() -> Vec<PathBuf> {
 fn the_scenes_of_the_paper_are_there() {
     for path in scenes() {
         let text = std::fs::read_to_string(&path).expect("a scene");
-        let scene = SurfaceScene::parse("scene", "scene.toml", &text).expect("a surface scene");
-        assert!(scene.frames.len() >= 2 && scene.choice.is_some(), "{}", path.display());
+        let scene = Scene::parse("scene", "scene.toml", &text).expect("a surface scene");
+        assert!(scene.frames() >= 2 && scene.choice.is_some(), "{}", path.display());
     }
 }
 
@@ -209,20 +209,38 @@ fn a_wrong_scene_names_its_key() {
     for (from, to, part) in [
         ("align = true", "align = true\nsize = 3", "unknown field `size`"),
         ("map_width = 128", "map_width = 127", "convolution.map_width: expected an even number"),
-        ("map_width = 128", "map_width = 8", "convolution.map_width: expected a number in"),
-        ("shape = \"rectangle\"", "shape = \"cube\"", "surface.shape: expected \"rectangle\""),
-        ("half_size = [1.2, 0.9]", "radius = 1.0", "surface.radius: means nothing"),
-        ("normal = [0.0, 0.0, 1.0]", "normal = [0.0, 0.0, 0.0]", "surface.normal"),
+        ("map_width = 128", "map_width = 8", "convolution.map_width: expected a whole number in"),
+        (
+            "shape = \"rectangle\"",
+            "shape = \"cube\"",
+            "geometry.shape: expected \"point\", \"rectangle\"",
+        ),
+        ("half_size = [1.2, 0.9]", "radius = 1.0", "geometry.radius: means nothing"),
+        ("normal = [0.0, 0.0, 1.0]", "normal = [0.0, 0.0, 0.0]", "geometry.normal"),
         ("reflectance = [0.04, 0.04, 0.04]", "reflectance = [2.0, 0.0, 0.0]", "reflectance"),
         ("method = \"full\"", "method = \"half\"", "reference.method: expected \"full\""),
-        ("rank = 10", "rank = 0", "].rank: expected a number in [1,"),
+        ("rank = 10", "rank = 0", "].rank: expected a whole number in [1,"),
         ("name = \"rank_2\"", "name = \"rank_1\"", "\"rank_1\" is there twice"),
-        ("environment = \"hall\"", "environment = \"\"", "frame[0].environment: is empty"),
+        ("map = \"hall\"", "map = \"\"", "light[0].map: is empty"),
         ("[choice]", "[budget.none]", "budget.none: there is no approximation"),
         ("field_of_view_deg = 46.0", "field_of_view_deg = nan", "view.field_of_view_deg"),
+        ("align = true", "align = 1", "convolution.align: expected true or false, got 1"),
+        (
+            "[convolution]",
+            "[spectrum]\n[convolution]",
+            "spectrum: means nothing with material.kind",
+        ),
+        (
+            "[choice]",
+            "[monte_carlo]\nsamples = 128\n[choice]",
+            "monte_carlo: samples estimate eq. 3",
+        ),
+        ("shape = \"rectangle\"\nhalf_size = [1.2, 0.9]", "shape = \"point\"", "geometry."),
+        ("[material.table]", "[diffraction]", "[diffraction] is now [material.table]"),
+        ("[geometry]", "[surface]", "[surface] is now [geometry], and material.reflectance"),
     ] {
         assert!(text.contains(from), "{from}");
-        let error = SurfaceScene::parse("phone", "phone.toml", &text.replacen(from, to, 1));
+        let error = Scene::parse("phone", "phone.toml", &text.replacen(from, to, 1));
         let error = error.expect_err(to).to_string();
         assert!(error.starts_with("phone.toml") && error.contains(part), "{to}: {error}");
     }
@@ -237,18 +255,21 @@ height = 8
 position = [0.0, -2.0, 2.0]
 target = [0.0, 0.0, 0.0]
 field_of_view_deg = 40.0
-[surface]
+[geometry]
 shape = \"rectangle\"
 half_size = [1.0, 1.0]
 normal = [0.0, 0.0, 1.0]
 tangent = [1.0, 0.0, 0.0]
-[diffraction]
+[material]
+kind = \"diffraction\"
+[material.table]
 surface = \"holographic_paper\"
 size = 33
 samples = 64
 wavelengths_nm = \"420:700:40\"
-[[frame]]
-environment = \"city\"
+[[light]]
+kind = \"environment\"
+map = \"city\"
 [convolution]
 map_width = 32
 [reference]
@@ -319,7 +340,7 @@ fn what_a_scene_names_must_be_usable() {
         ("surface = \"holographic_paper\"", "surface = \"paper\"", "holographic_paper"),
         (
             "surface = \"holographic_paper\"\nsize = 33\nsamples = 64\nwavelengths_nm = \"420:700:40\"",
-            "table = \"none.exr\"",
+            "file = \"none.exr\"",
             "none.exr",
         ),
     ] {
@@ -328,4 +349,21 @@ fn what_a_scene_names_must_be_usable() {
         assert!(code == Some(2) && text.contains(part), "{to}: {text}");
         assert!(text.contains("error: ") && !text.contains("panicked"), "{text}");
     }
+}
+
+/// Draws over the cells of the table against the sum over all of them, and the noise they state.
+#[test]
+fn monte_carlo_of_a_surface_agrees_with_eq_3() {
+    let text = SMALL.replace("method = \"full\"", "method = \"integral\"");
+    let text = format!("{text}[monte_carlo]\nsamples = 512\nseed = 2\n");
+    let project = Project::at(ROOT, Registry::builtin());
+    let scene = Scene::parse("small", "small.toml", &text).expect("a scene");
+    let scene = PreparedScene::new(scene, &project).expect("its table and maps");
+    let rendered = render::render(&scene, Backend::Lanes, &mut |_| ()).expect("renders");
+    let metrics = rendered.monte_carlo_metrics.expect("it was asked for");
+    let test = metrics.z_test.expect("it has standard errors");
+    println!("{test:?}, relative RMS {}", metrics.relative_rms);
+    assert!(test.passes(1e-3) && test.cells >= 6, "{test:?}");
+    let law = rendered.convergence.value().expect("two numbers of samples");
+    assert!(law.rms[1] < law.rms[0] && metrics.relative_rms < 0.1, "{law:?}");
 }

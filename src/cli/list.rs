@@ -9,7 +9,7 @@ use super::context::Context;
 use crate::document::{Cell, Column, Section, Table, number};
 use crate::gate;
 use crate::registry::Registry;
-use crate::render::AnyScene;
+use crate::render::Scene;
 
 /// List what there is: effects, references, forms, simulators, data, scenes, fits and gates
 #[derive(Debug, Args)]
@@ -179,8 +179,9 @@ fn data(context: &Context) -> anyhow::Result<Listing> {
 fn scenes(context: &Context) -> anyhow::Result<Listing> {
     let mut rows = Vec::new();
     for path in context.project()?.scenes()? {
-        let scene = AnyScene::read(&path)?;
-        rows.push(row([scene.name(), &scene.approximations().join(", "), scene.description()]));
+        let scene = Scene::read(&path)?;
+        let names: Vec<&str> = scene.approximations.iter().map(|of| of.name.as_str()).collect();
+        rows.push(row([&scene.name, &names.join(", "), &scene.description]));
     }
     Ok(Listing { title: "scenes", header: &["name", "approximations", "description"], rows })
 }

@@ -25,7 +25,6 @@ mod output;
 mod points;
 mod progress;
 mod render;
-mod render_surface;
 mod render_table;
 mod simulate;
 

@@ -9,21 +9,22 @@ use indicatif::ProgressBar;
 use super::Ending;
 use super::context::Context;
 use super::progress;
-use super::render_surface;
-use super::render_table::{Summary, text};
+use super::render_table::Summary;
+use crate::document::Section;
 use crate::gpu::{self, Device, NoDevice};
 use crate::render::image::Image;
 use crate::render::scene::{FIGURES, SHEET};
 use crate::render::sheet::comparison;
-use crate::render::surface::{SurfaceScene, render_surface};
-use crate::render::{AnyScene, Backend, Event, RenderedScene, Resources, Scene, render_scene};
+use crate::render::view::View;
+use crate::render::{Backend, Event, PreparedScene, Rendered, Scene, render};
+use crate::report::pages::scene_tables;
 use crate::table::store::atomic_write;
 
 const MORE: &str = "\
 Writes into DIR: reference, monte_carlo where the scene asks for it, one image per approximation
 (NAME.exr linear f32, NAME.png exposed), where it errs (NAME.error.png, relative to the root mean
 square of the reference, with its scale, and NAME.error.exr), all of them beside each other
-(sheet.png: reference and approximations in the order of the scene; below, Monte Carlo and the
+(sheet.png: reference and approximations in the order of the scene; right, Monte Carlo and the
 errors), and scene.json.
 
 Exit code 1 if an approximation is over the budget of the scene.
@@ -56,66 +57,50 @@ enum BackendName {
 
 /// Renders, writes and prints.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
-    match AnyScene::read(&arguments.scene)? {
-        AnyScene::Lobe(scene) => lobe(*scene, arguments, context),
-        AnyScene::Surface(scene) => surface(&scene, arguments, context),
-    }
-}
-
-fn surface(
-    scene: &SurfaceScene,
-    arguments: &Arguments,
-    context: &Context,
-) -> anyhow::Result<Ending> {
-    let project = context.project()?;
-    let device = device(arguments.backend, context)?;
-    let backend = device.as_ref().map_or(Backend::Lanes, Backend::Device);
-    let folder = folder(arguments, &scene.name)?;
-    let (fits, data) = (project.fits(), project.data());
-    let resources = Resources { fits: &fits, data: &data };
-    let mut keeper = Keeper::new(&folder, scene.exposure, context);
-    let rendered = render_surface(scene, resources, backend, &mut |event| keeper.see(event));
-    keeper.finish()?;
-    let rendered = rendered.with_context(|| scene.name.clone())?;
-    render_surface::finish(scene, &rendered, &folder, context)
-}
-
-/// The folder to write to, made if it is not there.
-fn folder(arguments: &Arguments, name: &str) -> anyhow::Result<PathBuf> {
-    let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from(name));
-    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
-    Ok(folder)
-}
-
-fn lobe(mut scene: Scene, arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
-    let project = context.project()?;
+    let mut scene = Scene::read(&arguments.scene)?;
     if let (Some(options), Some(seed)) = (&mut scene.monte_carlo, context.seed) {
         options.seed = seed;
     }
+    let project = context.project()?;
     let device = device(arguments.backend, context)?;
     let backend = device.as_ref().map_or(Backend::Lanes, Backend::Device);
-    let folder = folder(arguments, &scene.name)?;
+    let prepared = PreparedScene::new(scene, project)?;
+    let scene = &prepared.scene;
+    let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from(&scene.name));
+    std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
 
-    let (fits, data) = (project.fits(), project.data());
     let mut keeper = Keeper::new(&folder, scene.view.exposure, context);
-    let resources = Resources { fits: &fits, data: &data };
-    let rendered = render_scene(&scene, resources, backend, &mut |event| keeper.see(event));
+    let rendered = render(&prepared, backend, &mut |event| keeper.see(event));
     keeper.finish()?;
     let rendered = rendered.with_context(|| {
         format!("{}: what is finished is kept in {}", scene.name, folder.display())
     })?;
-    write_comparison(&scene, &rendered, &folder)?;
-    let summary = Summary::new(&scene, &rendered);
+    write_comparison(&rendered, scene.view.exposure, &folder)?;
+    let summary = Summary::new(scene, &rendered);
     let json = serde_json::to_string_pretty(&summary)?;
     atomic_write(&folder.join(format!("{FIGURES}.json")), format!("{json}\n").as_bytes())?;
-    context.output.result(&summary, || text(&summary))?;
-    let over: Vec<String> = rendered
-        .approximations
-        .iter()
-        .flat_map(|approximation| approximation.over_budget())
-        .collect();
+    context.output.sections(&summary, || vec![section(scene, &rendered)])?;
+    let over: Vec<&String> =
+        rendered.approximations.iter().flat_map(|found| &found.over_budget).collect();
     over.iter().for_each(|line| context.output.note(line));
     Ok(if over.is_empty() { Ending::Done } else { Ending::GateFailed })
+}
+
+/// What is printed.
+fn section(scene: &Scene, rendered: &Rendered) -> Section {
+    let View { width, height, .. } = scene.view;
+    let mut section = Section::new(scene.name.as_str()).paragraph(format!(
+        "{} of {width} × {height}. Reference: {}; approximations on {}.",
+        if scene.frames() == 1 {
+            "One frame".to_owned()
+        } else {
+            format!("{} frames", scene.frames())
+        },
+        rendered.method.words(),
+        rendered.backend
+    ));
+    section.blocks.extend(scene_tables(rendered));
+    section
 }
 
 /// The device, or none where the lanes are to be used.
@@ -177,15 +162,14 @@ impl<'a> Keeper<'a> {
     }
 }
 
-/// Error maps, and the contact sheet: images above, errors below.
-fn write_comparison(scene: &Scene, rendered: &RenderedScene, folder: &Path) -> anyhow::Result<()> {
-    let approximations = &rendered.approximations;
-    for approximation in approximations {
+/// Error maps, and the contact sheet.
+fn write_comparison(rendered: &Rendered, exposure: f64, folder: &Path) -> anyhow::Result<()> {
+    for approximation in &rendered.approximations {
         let file = |extension| folder.join(format!("{}.error.{extension}", approximation.name));
         approximation.error.write_png(file("png"), true)?;
         approximation.error.image().write_exr(file("exr"))?;
     }
-    let (sheet, _) = comparison(scene, rendered)?;
-    sheet.write_png(folder.join(format!("{SHEET}.png")), scene.view.exposure.log2())?;
+    let (sheet, _) = comparison(rendered, exposure)?;
+    sheet.write_png(folder.join(format!("{SHEET}.png")), exposure.log2())?;
     Ok(())
 }

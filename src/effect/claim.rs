@@ -91,20 +91,30 @@ pub struct Finding {
     pub command: String,
 }
 
-/// Checks every claim; one that cannot be checked is `not evaluated`, with the reason.
-pub fn check<E>(claims: &[Claim<E>], evidence: &E) -> Vec<Finding> {
-    let finding = |claim: &Claim<E>| {
-        let found = (claim.check)(evidence).unwrap_or_else(|error| Found {
-            found: error.to_string(),
-            verdict: "not evaluated".to_owned(),
-        });
-        Finding {
-            place: claim.place.to_owned(),
-            printed: claim.printed.to_owned(),
+impl Finding {
+    /// A claim beside what its check found; one that cannot be checked is `not evaluated`, with the
+    /// reason.
+    pub fn of(
+        place: impl Into<String>,
+        printed: impl Into<String>,
+        command: impl Into<String>,
+        found: Result<Found, ClaimError>,
+    ) -> Self {
+        let found = found.unwrap_or_else(|error| Found::new(error.to_string(), "not evaluated"));
+        Self {
+            place: place.into(),
+            printed: printed.into(),
             found: found.found,
             verdict: found.verdict,
-            command: claim.command.to_owned(),
+            command: command.into(),
         }
+    }
+}
+
+/// Checks every claim.
+pub fn check<E>(claims: &[Claim<E>], evidence: &E) -> Vec<Finding> {
+    let of = |claim: &Claim<E>| {
+        Finding::of(claim.place, claim.printed, claim.command, (claim.check)(evidence))
     };
-    claims.iter().map(finding).collect()
+    claims.iter().map(of).collect()
 }

@@ -10,6 +10,7 @@ use crate::fit::{self, Spec};
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
 use crate::project::Project;
+use crate::render::Scenes;
 use crate::validate::regions::Atlas;
 
 /// The verdicts on a project.
@@ -24,24 +25,35 @@ pub struct Check {
     pub proofs: Option<Proofs>,
 }
 
+/// What a check takes from a run: a project, and what has been made of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Sources<'r> {
+    /// The project.
+    pub project: &'r Project,
+    /// Points of regions with the values of references.
+    pub atlas: &'r Atlas,
+    /// Scenes with their references and pictures.
+    pub scenes: &'r Scenes,
+    /// What fits share.
+    pub fits: &'r fit::Context,
+}
+
 impl Check {
-    /// Judges `gates` in the project `root`, whose specs are `specs`; with `proving` also shows
+    /// Judges `gates` in the project, whose specs are `specs`; with `proving` also shows
     /// that every gate can fail.
     ///
     /// # Errors
     /// [`GateError`] if gates, specs or results are unusable, as opposed to failing.
     pub fn of(
-        project: &Project,
-        atlas: &Atlas,
-        fits: &fit::Context,
+        of: Sources<'_>,
         gates: &[Gate],
         specs: &[Spec],
         device: &Measured<Device>,
         proving: bool,
     ) -> Result<Self, GateError> {
-        let refits = refit(fits, specs)?;
-        let constants = reproduce(project.root(), specs, &refits)?;
-        let mut evidence = Evidence::new(project, atlas, refits);
+        let refits = refit(of.fits, specs)?;
+        let constants = reproduce(of.project.root(), specs, &refits)?;
+        let mut evidence = Evidence::new(of.project, of.atlas, of.scenes, refits);
         let judgements = judge(gates, &mut evidence, device)?;
         let proofs = if proving { Some(prove(gates, &mut evidence, device)?) } else { None };
         Ok(Self { gates: judgements, constants, proofs })

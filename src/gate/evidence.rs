@@ -4,7 +4,6 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::scene::Scenes;
 use super::subject::{Instance, Lever, Subject};
 use super::{Domain, Gate, GateError, Metric, Refits, committed};
 use crate::effect::{Candidate, Effect, Member, Reference, Yardstick};
@@ -13,6 +12,7 @@ use crate::fit::outcome::Outcome;
 use crate::fit::sampling::Axis;
 use crate::fit::spec::Target as SpecTarget;
 use crate::project::{Approximated, Project};
+use crate::render::Scenes;
 use crate::table::{Column, Table};
 use crate::validate::accuracy::{Judged, Target};
 use crate::validate::regions::Atlas;
@@ -27,7 +27,7 @@ pub struct Evidence<'r> {
     families: BTreeMap<&'static str, Vec<Member>>,
     judged: BTreeMap<(&'static str, String), Arc<Judged>>,
     standing: BTreeMap<String, Found<Standing>>,
-    scenes: Scenes,
+    scenes: &'r Scenes,
 }
 
 /// Something, or why a gate on it fails.
@@ -43,7 +43,7 @@ struct Standing {
 
 impl<'r> Evidence<'r> {
     /// Evidence of `project`; `refits` are its specs, fitted again.
-    pub fn new(project: &'r Project, atlas: &'r Atlas, refits: Refits) -> Self {
+    pub fn new(project: &'r Project, atlas: &'r Atlas, scenes: &'r Scenes, refits: Refits) -> Self {
         Self {
             project,
             atlas,
@@ -51,7 +51,7 @@ impl<'r> Evidence<'r> {
             families: BTreeMap::new(),
             judged: BTreeMap::new(),
             standing: BTreeMap::new(),
-            scenes: Scenes::default(),
+            scenes,
         }
     }
 
@@ -59,8 +59,8 @@ impl<'r> Evidence<'r> {
         self.project
     }
 
-    pub(super) fn scenes(&mut self) -> (&'r Project, &mut Scenes) {
-        (self.project, &mut self.scenes)
+    pub(super) fn scenes(&self) -> &'r Scenes {
+        self.scenes
     }
 
     /// Fits that the subject of a gate takes its constants from.

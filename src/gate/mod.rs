@@ -27,7 +27,7 @@ use crate::document::Verdict;
 
 pub use annotation::annotations;
 pub use budget::{Gate, Metric, Precision};
-pub use check::Check;
+pub use check::{Check, Sources};
 pub use committed::stands;
 pub use domain::Domain;
 pub use error::GateError;

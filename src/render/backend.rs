@@ -4,13 +4,22 @@ use std::ops::RangeInclusive;
 
 use rayon::prelude::*;
 
+use crate::form::Form;
 use crate::gpu::{self, Device};
 
 use super::error::RenderError;
-use super::kernel::Kernel;
 
 /// Points that one task on the CPU takes: a few tasks per thread, within these bounds.
 const TASK_POINTS: RangeInclusive<usize> = 16..=512;
+
+/// A form that returns R, G, B, with the f32 that ship: what is drawn and timed.
+#[derive(Debug, Clone)]
+pub struct Kernel {
+    /// The form.
+    pub form: Form,
+    /// One value per parameter of the form.
+    pub constants: Vec<f32>,
+}
 
 /// Where kernels run.
 #[derive(Debug, Clone, Copy)]
@@ -32,14 +41,14 @@ impl Backend<'_> {
 }
 
 /// Kernels made ready, whose colours add up.
-pub(super) struct Painter<'k, 'd> {
-    kernels: &'k [Kernel],
+pub(super) struct Painter<'d> {
+    kernels: Vec<Kernel>,
     compiled: Option<Vec<gpu::Kernel<'d>>>,
 }
 
-impl<'k, 'd> Painter<'k, 'd> {
+impl<'d> Painter<'d> {
     /// Compiles for a device; lanes are compiled with their form.
-    pub(super) fn new(kernels: &'k [Kernel], backend: Backend<'d>) -> Result<Self, RenderError> {
+    pub(super) fn new(kernels: Vec<Kernel>, backend: Backend<'d>) -> Result<Self, RenderError> {
         let compiled = match backend {
             Backend::Lanes => None,
             Backend::Device(device) => Some(
@@ -68,7 +77,7 @@ impl<'k, 'd> Painter<'k, 'd> {
                 }
             }
             None => {
-                for kernel in self.kernels {
+                for kernel in &self.kernels {
                     add(on_lanes(kernel, inputs, rows)?);
                 }
             }

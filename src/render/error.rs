@@ -32,7 +32,7 @@ pub enum RenderError {
     /// A value in the scene makes no sense.
     #[error("{path}: {key}: {what}")]
     Value {
-        /// The file.
+        /// The file, and the line where it is known.
         path: String,
         /// The key, as in `light[0].radius`.
         key: String,
@@ -48,6 +48,12 @@ pub enum RenderError {
         kind: &'static str,
         /// Expected and got.
         what: String,
+    },
+    /// An approximation that the scene has not.
+    #[error("the scene has no approximation {at}")]
+    NoApproximation {
+        /// Its place, from 0.
+        at: usize,
     },
     /// A form does not load or evaluate.
     #[error(transparent)]

@@ -1,19 +1,18 @@
-//! Monte Carlo over the lights: the same integral with no approximation but noise.
+//! Monte Carlo: the same integral with no approximation but noise.
 //!
-//! Directions are uniform in the cone of a sphere, points uniform on the triangles of a polygon,
-//! with counter-based random numbers (pcg4d of pixel, draw, light and seed), so that an image does
-//! not depend on tiles, threads or the order of work, and the device and the lanes see the same
-//! draws. A pass takes [`SAMPLES_PER_PASS`] of them per pixel and light; the standard error of a
-//! pixel is that of the mean of its passes, s/√n with s² the unbiased variance of n passes.
+//! Random numbers are counter-based (pcg4d of pixel, draw, light and seed), so that an image does not
+//! depend on tiles, threads or the order of work, and the device and the lanes see the same draws. A
+//! pass takes [`SAMPLES_PER_PASS`] of them per pixel and light; the standard error of a pixel is that of
+//! the mean of its passes, s/√n with s² the unbiased variance of n passes.
 
-use super::backend::{Backend, Painter};
 use super::error::RenderError;
-use super::illumination::{Illumination, Sphere, directions};
 use super::image::{Channel, Image};
-use super::kernel::{self, Kernel, SceneData};
-use super::light_form::LightKind;
-use super::scene::{MonteCarlo, SAMPLES_PER_PASS, Scene};
+use super::scene::{MonteCarlo, SAMPLES_PER_PASS};
+use super::shading::Sampler;
 use super::tiles::{self, Event};
+
+/// `random_pair` of a counter, for kernels that draw.
+pub(super) const RANDOM: &str = include_str!("monte_carlo_random.wgsl");
 
 /// A Monte Carlo image.
 #[derive(Debug, Clone)]
@@ -26,94 +25,31 @@ pub struct Sampled {
     pub early_samples: u32,
 }
 
-/// The text around the scene's constants for one kind of light.
-pub(super) fn text(kind: LightKind) -> &'static str {
-    match kind {
-        LightKind::Sphere => concat!(
-            include_str!("monte_carlo_sphere.wgsl"),
-            include_str!("monte_carlo_random.wgsl")
-        ),
-        LightKind::Polygon => concat!(
-            include_str!("monte_carlo_polygon.wgsl"),
-            include_str!("monte_carlo_random.wgsl")
-        ),
-    }
-}
-
-/// The seed of a kind of light: 32 bits of the scene's 64, apart for spheres and polygons.
-pub(super) fn seed_word(seed: u64, kind: LightKind) -> u32 {
-    let salt = match kind {
-        LightKind::Sphere => 0x9e37_79b9,
-        LightKind::Polygon => 0x7f4a_7c15,
-    };
+/// 32 bits of the 64 of a seed, moved apart by `salt` for what is drawn side by side.
+pub(super) fn seed_word(seed: u64, salt: u32) -> u32 {
     ((seed ^ (seed >> 32)) as u32) ^ salt
 }
 
-/// Adds the axes of the cones that spheres fill, and 1 − cos of their half-angles.
-pub(super) fn add_cones(data: &mut SceneData, spheres: &[Sphere]) {
-    let cones: Vec<Cone> = spheres.iter().map(Cone::of).collect();
-    data.add_scalars("scene_cone", "light", cones.iter().map(|cone| cone.versine));
-    for (at, name) in ["scene_axis", "scene_tangent", "scene_bitangent"].into_iter().enumerate() {
-        data.add_vectors(name, "light", cones.iter().filter_map(|cone| cone.axes.get(at).copied()));
-    }
-}
-
-/// The cone of directions in which a sphere is seen from the origin.
-struct Cone {
-    versine: f32,
-    axes: [[f32; 3]; 3],
-}
-
-impl Cone {
-    fn of(sphere: &Sphere) -> Self {
-        let centre = nalgebra::Vector3::from(sphere.centre.map(f64::from));
-        let axis = centre.normalize();
-        let sine = f64::from(sphere.radius) / centre.norm();
-        // 1 − cos = sin² / (1 + cos) keeps its digits for small lights.
-        let versine = sine * sine / (1.0 + (1.0 - sine * sine).sqrt());
-        let side = if axis.x.abs() < 0.5 { nalgebra::Vector3::x() } else { nalgebra::Vector3::y() };
-        let tangent = side.cross(&axis).normalize();
-        let axes = [axis, tangent, axis.cross(&tangent)];
-        Self { versine: versine as f32, axes: axes.map(|v| v.map(|x| x as f32).into()) }
-    }
-}
-
-/// The kernels of one pass.
-///
-/// # Errors
-/// As [`kernel::sampling`].
-pub(super) fn kernels(lit: &Illumination, seed: u64) -> Result<Vec<Kernel>, RenderError> {
-    kernel::sampling(lit, seed)
-}
-
-/// Renders; `name` is the image's in events and errors.
+/// Renders; `name` is the image's in events and errors, `size` its width and height.
 ///
 /// # Errors
 /// [`RenderError::Interrupted`] with what is finished.
 pub(super) fn sampled(
     name: &str,
-    scene: &Scene,
-    kernels: &[Kernel],
+    size: [usize; 2],
+    sampler: &Sampler<'_>,
     options: MonteCarlo,
-    backend: Backend<'_>,
     watch: &mut dyn FnMut(Event<'_>),
 ) -> Result<Sampled, RenderError> {
-    let painter = Painter::new(kernels, backend)?;
     let passes = (options.samples / SAMPLES_PER_PASS).max(2);
     let early = (passes / 4).max(1);
     let channels =
         ["R", "G", "B", "stderr.R", "stderr.G", "stderr.B", "early.R", "early.G", "early.B"];
-    let mut image = tiles::image(name, &scene.view, &channels, watch, |pixels| {
-        let [along, across] = directions(&scene.view, scene.scratch.direction_deg, pixels.clone());
-        let numbers: Vec<f32> = pixels.clone().map(|pixel| pixel as f32).collect();
-        let mut inputs = vec![along, across, numbers, vec![0.0; pixels.len()]];
+    let mut image = tiles::image(name, size, &channels, watch, |pixels| {
         let mut moments = vec![Moments::default(); 3 * pixels.len()];
         let mut early_means = Vec::new();
         for pass in 0..passes {
-            if let Some(first) = inputs.get_mut(3) {
-                first.fill((pass * SAMPLES_PER_PASS) as f32);
-            }
-            let colours = painter.colours(&inputs)?;
+            let colours = sampler(pixels.clone(), pass * SAMPLES_PER_PASS)?;
             for (moments, colour) in moments.chunks_mut(pixels.len()).zip(colours) {
                 moments.iter_mut().zip(colour).for_each(|(m, value)| m.add(f64::from(value)));
             }
@@ -166,8 +102,6 @@ impl Moments {
 mod tests {
     use super::*;
     use crate::form::Form;
-
-    const RANDOM: &str = include_str!("monte_carlo_random.wgsl");
 
     #[test]
     fn moments_of_a_known_sample() {

@@ -1,50 +1,27 @@
-//! A scene rendered: the reference, Monte Carlo, every approximation, and how they compare.
+//! A scene rendered: the reference, Monte Carlo, every approximation, how they compare, what they
+//! cost, and which is the cheapest that will do.
 
-use std::path::Path;
+use std::sync::Arc;
 
-use crate::measured::spectra::Spectra;
-use crate::numeric::measured::Measured;
-
-use super::backend::{Backend, Painter};
+use super::backend::Backend;
 use super::compare::error_map::ErrorMap;
-use super::compare::flip::{STANDARD_PIXELS_PER_DEGREE, ldr_flip};
-use super::compare::metrics::{ImageDifference, Place};
-use super::compare::z_test::{Pooling, ZTest};
+use super::compare::metrics::ImageDifference;
 use super::error::RenderError;
-use super::illumination::{Illumination, directions};
 use super::image::Image;
-use super::kernel::{self, Kernel};
-use super::light_form::{LightForm, LightKind};
 use super::monte_carlo::{self, Sampled};
-use super::reference;
-use super::scene::{self, Budget, MonteCarlo, ReferenceMethod, Scene};
-use super::speed::{self, Convergence, EqualError, Timings};
-use super::tiles::{self, Event};
-
-/// Where fits and measured data are found.
-#[derive(Debug, Clone, Copy)]
-pub struct Resources<'a> {
-    /// Folder of the results of fits.
-    pub fits: &'a Path,
-    /// Folder of measured data, with `spectra/` in it.
-    pub data: &'a Path,
-}
-
-/// An approximation, ready to shade.
-#[derive(Debug, Clone)]
-pub struct ShadedBy {
-    /// Name in tables and files.
-    pub name: String,
-    /// The form for spheres, where the scene has one.
-    pub sphere: Option<LightForm>,
-    /// The form for polygons, where the scene has one.
-    pub polygon: Option<LightForm>,
-}
+use super::prepared::{Metrics, Picture, PreparedScene};
+use super::scene::{self, Budget, Method, MonteCarlo, ReferenceMethod};
+use super::shading::Details;
+use super::tiles::Event;
+use super::times::{self, Convergence, EqualError, Times};
+use crate::numeric::measured::Measured;
 
 /// Everything that a scene asks for.
 #[derive(Debug, Clone)]
-pub struct RenderedScene {
-    /// The reference; standard errors beside it if it is Monte Carlo.
+pub struct Rendered {
+    /// Name of the scene.
+    pub name: String,
+    /// The reference, frames beside each other; standard errors beside it if it is Monte Carlo.
     pub reference: Image,
     /// How it was made.
     pub method: ReferenceMethod,
@@ -52,49 +29,18 @@ pub struct RenderedScene {
     pub monte_carlo: Option<Sampled>,
     /// How it differs from the reference, if that is another image.
     pub monte_carlo_metrics: Option<Metrics>,
-    /// How Monte Carlo's error falls against a quadrature reference.
+    /// How Monte Carlo's error falls against the reference.
     pub convergence: Measured<Convergence>,
     /// One per approximation of the scene, in its order.
     pub approximations: Vec<RenderedApproximation>,
-    /// What the kernels cost on the device.
-    pub timings: Measured<Timings>,
+    /// What a frame costs on the device.
+    pub times: Measured<Times>,
+    /// The cheapest within the limits of the scene, or why there is none.
+    pub choice: Option<Result<String, String>>,
+    /// What only scenes of its material show.
+    pub details: Details,
     /// Where the kernels ran.
     pub backend: String,
-}
-
-/// How an image differs from the reference.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Metrics {
-    /// Root mean square error over pixels and channels.
-    pub rms: f64,
-    /// The same over the root mean square of the reference.
-    pub relative_rms: f64,
-    /// Mean error: mean of the test image less that of the reference.
-    pub mean: f64,
-    /// Largest magnitude of the error.
-    pub max: f64,
-    /// Where that is.
-    pub at: Place,
-    /// Mean LDR-FLIP at the exposure of the scene.
-    pub flip: f64,
-    /// Against the noise of a Monte Carlo image, if one of the two is one.
-    pub z_test: Option<ZTest>,
-}
-
-impl Metrics {
-    pub(super) fn of(test: &Image, reference: &Image, exposure: f64) -> Result<Self, RenderError> {
-        let difference = ImageDifference::of(test, reference)?;
-        let noisy = [test, reference].iter().any(|image| image.standard_error("R").is_some());
-        Ok(Self {
-            rms: difference.all.rms,
-            relative_rms: difference.all.relative_rms,
-            mean: difference.all.mean - difference.all.reference_mean,
-            max: difference.all.max,
-            at: difference.max_place(),
-            flip: ldr_flip(test, reference, exposure.log2(), STANDARD_PIXELS_PER_DEGREE)?.mean,
-            z_test: noisy.then(|| ZTest::of(test, reference, Pooling::default())).transpose()?,
-        })
-    }
 }
 
 /// An approximation, rendered and compared.
@@ -102,207 +48,142 @@ impl Metrics {
 pub struct RenderedApproximation {
     /// Name.
     pub name: String,
-    /// The fits or forms that shaded it.
-    pub shaded_by: Vec<String>,
-    /// Its image.
-    pub image: Image,
+    /// How it shades.
+    pub method: Method,
+    /// Its picture, and how that differs from the reference in f64.
+    pub picture: Arc<Picture>,
+    /// How it differs from the reference of the scene.
+    pub metrics: Metrics,
     /// Where it errs, relative to the root mean square of the reference, on a scale of its own.
     pub error: ErrorMap,
-    /// How it differs from the reference.
-    pub metrics: Metrics,
-    /// ns per pixel on the device.
-    pub pixel_ns: Measured<f64>,
+    /// ms of one frame on the device.
+    pub frame_ms: Measured<f64>,
+    /// The time without an approximation over it.
+    pub full_over: Measured<f64>,
     /// Monte Carlo at its RMS error.
     pub equal_error: Measured<EqualError>,
-    /// Its budget.
-    pub budget: Option<Budget>,
-}
-
-impl RenderedApproximation {
     /// What of its budget is exceeded, in words.
-    pub fn over_budget(&self) -> Vec<String> {
-        over_budget(&self.name, &self.metrics, self.budget.as_ref())
-    }
+    pub over_budget: Vec<String>,
 }
 
-/// What of `budget` the picture called `name` exceeds, in words.
-pub(super) fn over_budget(name: &str, metrics: &Metrics, budget: Option<&Budget>) -> Vec<String> {
-    let Some(budget) = budget else { return Vec::new() };
-    let limits = [
-        ("relative RMS", metrics.relative_rms, budget.relative_rms),
-        ("FLIP", metrics.flip, budget.flip),
-    ];
-    let over = limits.into_iter().filter_map(|(what, got, limit)| {
-        // A NaN exceeds every limit.
-        let limit = limit.filter(|limit| got.is_nan() || got > *limit)?;
-        Some(format!("{name}: {what} {got:.4e} is over its budget of {limit:e}"))
-    });
-    over.collect()
-}
-
-/// Loads the forms that the approximations of `scene` name.
+/// Renders the reference, Monte Carlo and the approximations of a scene, compares and times them;
+/// `watch` sees tiles and images as they are finished.
 ///
 /// # Errors
-/// As [`LightForm::load`].
-pub fn approximations(scene: &Scene, fits: &Path) -> Result<Vec<ShadedBy>, RenderError> {
-    let load = |name: &Option<String>, kind, lit: bool| match name {
-        Some(name) if lit => LightForm::load(name, kind, fits).map(Some),
-        _ => Ok(None),
-    };
-    let choices = scene.approximations.iter();
-    choices
-        .map(|choice| {
-            Ok(ShadedBy {
-                name: choice.name.clone(),
-                sphere: load(&choice.sphere, LightKind::Sphere, scene.has_spheres())?,
-                polygon: load(&choice.polygon, LightKind::Polygon, scene.has_polygons())?,
-            })
-        })
-        .collect()
-}
-
-/// Renders the reference, Monte Carlo and the approximations of `scene`; `watch` sees tiles and
-/// images as they are finished.
-///
-/// # Errors
-/// [`RenderError`]: what does not load, and [`RenderError::Interrupted`] with what is finished of
-/// an image that was cut short.
-pub fn render_scene(
-    scene: &Scene,
-    resources: Resources<'_>,
+/// [`RenderError`]: what cannot be made, and [`RenderError::Interrupted`] with what is finished of an
+/// image that was cut short.
+pub fn render(
+    prepared: &PreparedScene,
     backend: Backend<'_>,
     watch: &mut dyn FnMut(Event<'_>),
-) -> Result<RenderedScene, RenderError> {
-    let shaded_by = approximations(scene, resources.fits)?;
-    let lit = Illumination::new(scene, || Spectra::load(&resources.data.join("spectra")))?;
-    render_with(scene, &lit, &shaded_by, backend, watch)
-}
-
-/// The same with forms that need not be registered.
-///
-/// # Errors
-/// As [`render_scene`].
-pub fn render_with(
-    scene: &Scene,
-    lit: &Illumination,
-    shaded_by: &[ShadedBy],
-    backend: Backend<'_>,
-    watch: &mut dyn FnMut(Event<'_>),
-) -> Result<RenderedScene, RenderError> {
-    let kernels: Vec<Vec<Kernel>> = shaded_by
-        .iter()
-        .map(|by| kernel::shading(lit, by.sphere.as_ref(), by.polygon.as_ref()))
-        .collect::<Result<_, _>>()?;
-    let draws = match scene.monte_carlo {
-        Some(options) => Some((options, monte_carlo::kernels(lit, options.seed)?)),
-        None => None,
-    };
-    let quadrature = match scene.reference {
-        ReferenceMethod::Quadrature => {
-            Some(finished(scene::REFERENCE, reference::image(scene, lit, watch)?, watch))
-        }
+) -> Result<Rendered, RenderError> {
+    let PreparedScene { scene, shading, .. } = prepared;
+    let exposure = scene.view.exposure;
+    let exact = match scene.reference {
         ReferenceMethod::MonteCarlo => None,
+        _ => {
+            let image = prepared.exact(watch)?;
+            watch(Event::Image { name: scene::REFERENCE, image, whole: true });
+            Some(image)
+        }
     };
-    let sampled = match &draws {
-        Some((options, kernels)) => {
+    let sampled = match scene.monte_carlo {
+        Some(options) => {
+            let sampler = shading.sampler(options.seed, backend)?;
             let name = scene::MONTE_CARLO;
-            let sampled = monte_carlo::sampled(name, scene, kernels, *options, backend, watch)?;
+            let sampled = monte_carlo::sampled(name, scene.size(), &sampler, options, watch)?;
             watch(Event::Image { name, image: &sampled.image, whole: true });
-            Some((*options, sampled))
+            Some((options, sampled))
         }
         None => None,
     };
-    let mut images = Vec::with_capacity(shaded_by.len());
-    for (by, kernels) in shaded_by.iter().zip(&kernels) {
-        images.push(finished(&by.name, shaded(&by.name, scene, kernels, backend, watch)?, watch));
+    let mut pictures = Vec::with_capacity(scene.approximations.len());
+    for (at, approximation) in scene.approximations.iter().enumerate() {
+        let picture = prepared.picture(at, backend, watch)?;
+        watch(Event::Image { name: &approximation.name, image: &picture.image, whole: true });
+        pictures.push(picture);
     }
-    let timings = match backend {
+    let times = match backend {
         Backend::Device(device) => {
-            let draws = draws.as_ref().map(|(_, kernels)| kernels.as_slice());
-            // The pictures are there: a device that fails now costs the timings alone.
-            match speed::timings(device, scene, &kernels, draws) {
-                Ok(timings) => Measured::Value(timings),
+            let seed = scene.monte_carlo.map(|options| options.seed);
+            // The pictures are there: a device that fails now costs the times alone.
+            match times::times(device, shading.as_ref(), pictures.len(), seed) {
+                Ok(times) => Measured::Value(times),
                 Err(error) => Measured::NotMeasured(error.to_string()),
             }
         }
         Backend::Lanes => Measured::NotMeasured("kernels are timed on the device".into()),
     };
-    let convergence = convergence(quadrature.as_ref(), sampled.as_ref())?;
-    let sampled = sampled.map(|(_, sampled)| sampled);
-    let exposure = scene.view.exposure;
-    let monte_carlo_metrics = match (&quadrature, &sampled) {
-        (Some(reference), Some(sampled)) => Some(Metrics::of(&sampled.image, reference, exposure)?),
+    let convergence = convergence(exact, sampled.as_ref())?;
+    let monte_carlo_metrics = match (exact, &sampled) {
+        (Some(exact), Some((_, sampled))) => Some(Metrics::of(&sampled.image, exact, exposure)?),
         _ => None,
     };
-    let reference = match (quadrature, &sampled) {
-        (Some(image), _) => image,
-        (None, Some(sampled)) => sampled.image.clone(),
-        // A checked scene has one or the other.
-        (None, None) => Image::rgb(scene.view.width, scene.view.height, &[]),
+    let monte_carlo = sampled.map(|(_, sampled)| sampled);
+    let noisy = monte_carlo.as_ref().map(|sampled| &sampled.image);
+    let Some(reference) = exact.or(noisy) else {
+        let what = "reference.method = \"monte_carlo\" needs a section [monte_carlo]";
+        let (path, key) = (scene.origin.clone(), "monte_carlo".into());
+        return Err(RenderError::Value { path, key, what: what.into() });
     };
-    let mut compared = Vec::with_capacity(images.len());
-    for (at, (by, image)) in shaded_by.iter().zip(images).enumerate() {
-        let metrics = Metrics::of(&image, &reference, exposure)?;
-        let pixel_ns = match &timings {
-            Measured::Value(timings) => timings.approximations_ns.get(at).cloned(),
-            Measured::NotMeasured(reason) => Some(Measured::NotMeasured(reason.clone())),
+    let mut approximations = Vec::with_capacity(pictures.len());
+    for (at, (of, picture)) in scene.approximations.iter().zip(pictures).enumerate() {
+        let metrics = match exact {
+            Some(_) => picture.metrics.clone(),
+            None => Metrics::of(&picture.image, reference, exposure)?,
         };
-        let pixel_ns = pixel_ns.unwrap_or(Measured::NotMeasured("not timed".into()));
-        let forms = [&by.sphere, &by.polygon].into_iter().flatten();
-        compared.push(RenderedApproximation {
-            name: by.name.clone(),
-            shaded_by: forms.map(|form| form.name.clone()).collect(),
-            error: ErrorMap::relative(&image, &reference, None)?,
-            equal_error: equal_error(&convergence, &timings, &pixel_ns, metrics.rms),
+        let budget = scene.budget.get(&of.name).copied().unwrap_or_default();
+        let frame_ms = part(&times, |times| times.approximations_ms.get(at).cloned());
+        approximations.push(RenderedApproximation {
+            name: of.name.clone(),
+            method: of.method.clone(),
+            error: ErrorMap::relative(&picture.image, reference, None)?,
+            equal_error: equal_error(&convergence, &times, &frame_ms, metrics.rms),
+            full_over: part(&times, |times| Some(times.full_over(at))),
+            over_budget: budget.exceeded(&of.name, metrics.relative_rms, metrics.flip),
+            frame_ms,
             metrics,
-            image,
-            pixel_ns,
-            budget: scene.budget.get(&by.name).copied(),
+            picture,
         });
     }
-    Ok(RenderedScene {
-        approximations: compared,
+    Ok(Rendered {
+        name: scene.name.clone(),
+        choice: scene.choice.as_ref().map(|limits| choice(&approximations, limits)),
+        approximations,
         method: scene.reference,
-        monte_carlo: sampled,
         monte_carlo_metrics,
         convergence,
-        timings,
+        times,
+        details: shading.details()?,
         backend: backend.description(),
-        reference,
+        reference: reference.clone(),
+        monte_carlo,
     })
 }
 
-fn finished(name: &str, image: Image, watch: &mut dyn FnMut(Event<'_>)) -> Image {
-    watch(Event::Image { name, image: &image, whole: true });
-    image
-}
-
-/// The image that the kernels make together.
-pub(super) fn shaded(
-    name: &str,
-    scene: &Scene,
-    kernels: &[Kernel],
-    backend: Backend<'_>,
-    watch: &mut dyn FnMut(Event<'_>),
-) -> Result<Image, RenderError> {
-    let painter = Painter::new(kernels, backend)?;
-    tiles::image(name, &scene.view, &["R", "G", "B"], watch, |pixels| {
-        painter.colours(&directions(&scene.view, scene.scratch.direction_deg, pixels))
-    })
+/// A time, or why there is none.
+fn part(
+    times: &Measured<Times>,
+    of: impl FnOnce(&Times) -> Option<Measured<f64>>,
+) -> Measured<f64> {
+    match times {
+        Measured::Value(times) => of(times).unwrap_or(Measured::NotMeasured("not timed".into())),
+        Measured::NotMeasured(reason) => Measured::NotMeasured(reason.clone()),
+    }
 }
 
 fn convergence(
-    reference: Option<&Image>,
+    exact: Option<&Image>,
     sampled: Option<&(MonteCarlo, Sampled)>,
 ) -> Result<Measured<Convergence>, RenderError> {
     let Some((options, sampled)) = sampled else {
         return Ok(Measured::NotMeasured("the scene has no section [monte_carlo]".into()));
     };
-    let Some(reference) = reference else {
+    let Some(exact) = exact else {
         return Ok(Measured::NotMeasured("the reference is Monte Carlo itself".into()));
     };
     let rms = |image: &Image| -> Result<f64, RenderError> {
-        Ok(ImageDifference::of(image, reference)?.all.rms)
+        Ok(ImageDifference::of(image, exact)?.all.rms)
     };
     let samples = [sampled.early_samples, options.samples];
     let errors = [rms(&sampled.early)?, rms(&sampled.image)?];
@@ -311,26 +192,36 @@ fn convergence(
 
 fn equal_error(
     convergence: &Measured<Convergence>,
-    timings: &Measured<Timings>,
-    pixel_ns: &Measured<f64>,
+    times: &Measured<Times>,
+    frame_ms: &Measured<f64>,
     rms: f64,
 ) -> Measured<EqualError> {
     if !(rms.is_finite() && rms > 0.0) {
         return Measured::NotMeasured(format!("Monte Carlo never reaches an RMS error of {rms}"));
     }
-    let timings = match timings {
-        Measured::Value(timings) => timings,
-        Measured::NotMeasured(reason) => return Measured::NotMeasured(reason.clone()),
-    };
-    match (convergence, pixel_ns, &timings.sample_ns) {
-        (Measured::Value(law), Measured::Value(pixel), Some(Measured::Value(sample))) => {
-            Measured::Value(law.equal_error(rms, *pixel, *sample))
+    let sample_ms = part(times, |times| Some(times.sample_ms.clone()));
+    match (convergence, frame_ms, &sample_ms) {
+        (Measured::Value(law), Measured::Value(frame), Measured::Value(sample)) => {
+            Measured::Value(law.equal_error(rms, *frame, *sample))
         }
         (Measured::NotMeasured(reason), _, _)
         | (_, Measured::NotMeasured(reason), _)
-        | (_, _, Some(Measured::NotMeasured(reason))) => Measured::NotMeasured(reason.clone()),
-        (_, _, None) => Measured::NotMeasured("Monte Carlo was not timed".into()),
+        | (_, _, Measured::NotMeasured(reason)) => Measured::NotMeasured(reason.clone()),
     }
+}
+
+/// The cheapest approximation within `limits`; of those that were not timed the first.
+fn choice(approximations: &[RenderedApproximation], limits: &Budget) -> Result<String, String> {
+    let within = |a: &&RenderedApproximation| {
+        limits.exceeded(&a.name, a.metrics.relative_rms, a.metrics.flip).is_empty()
+    };
+    let cost = |a: &RenderedApproximation| a.frame_ms.value().copied().unwrap_or(f64::INFINITY);
+    let cheapest = approximations
+        .iter()
+        .filter(within)
+        .min_by(|a, b| cost(a).total_cmp(&cost(b)))
+        .map(|found| found.name.clone());
+    cheapest.ok_or_else(|| "no approximation is within the limits of the scene".to_owned())
 }
 
 #[cfg(test)]
@@ -338,26 +229,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_mean_error_is_test_less_reference() -> Result<(), RenderError> {
-        let image = |value: f32| Image::rgb(2, 2, &[[value; 3]; 4]);
-        assert_eq!(Metrics::of(&image(0.5), &image(0.5), 1.0)?.mean, 0.0);
-        assert_eq!(Metrics::of(&image(0.5), &image(0.75), 1.0)?.mean, -0.25);
-        Ok(())
-    }
-
-    #[test]
     fn an_error_that_monte_carlo_never_reaches_has_no_ratio() {
         let law = Measured::Value(Convergence::new([256, 1024], [0.02, 0.01]));
-        let timings = Measured::Value(Timings {
+        let times = Measured::Value(Times {
             device: "test".into(),
-            approximations_ns: vec![Measured::Value(1.0)],
-            sample_ns: Some(Measured::Value(1.0)),
+            approximations_ms: vec![Measured::Value(1.0)],
+            full_ms: Measured::Value(4.0),
+            sample_ms: Measured::Value(1.0),
         });
         let ratio = |rms| {
-            let equal = equal_error(&law, &timings, &Measured::Value(1.0), rms);
+            let equal = equal_error(&law, &times, &Measured::Value(1.0), rms);
             equal.value().map(|equal| equal.ratio)
         };
         assert_eq!(ratio(0.01), Some(1024.0));
         assert_eq!((ratio(0.0), ratio(f64::NAN)), (None, None));
+        assert_eq!(part(&times, |times| Some(times.full_over(0))), Measured::Value(4.0));
+        assert!(part(&times, |times| Some(times.full_over(1))).value().is_none());
     }
 }

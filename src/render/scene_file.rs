@@ -1,110 +1,52 @@
 //! The TOML of a scene: its keys, and what is checked before anything is rendered.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Component, Path};
 
-use serde::Deserialize;
-
+use super::claims;
 use super::error::RenderError;
-use super::illumination::Facets;
-use super::light_form::is_in_project;
+use super::geometry::{Frame, Geometry};
+use super::lobe::Facets;
 use super::polygon::Polygon;
 use super::scene::{
-    ApproximationChoice, Budget, Light, MAX_PIXELS, MonteCarlo, ReferenceMethod, SAMPLES_PER_PASS,
-    Scene, Scratch, Shape, Spectrum, View,
+    Approximation, Budget, Convolution, Diffraction, FILES, Factors, Light, LightShape, MAX_PIXELS,
+    Material, Method, MonteCarlo, ReferenceMethod, SAMPLES_PER_PASS, Scene, SceneClaim, Scratch,
+    Spectrum, Straighten, TableSource,
 };
-use super::scene_keys::Keys;
+use super::section::Section;
+use super::view::{Camera, Projection, View};
 
 /// Shortest and longest wavelength of a scene, nm: 100 nm to 100 µm.
 const WAVELENGTHS_NM: [f64; 2] = [100.0, 1e5];
 /// Most wavelengths of a spectral picture.
-const MAX_WAVELENGTHS: usize = 401;
+const MAX_WAVELENGTHS: u64 = 401;
 /// Most samples per pixel: sample numbers are counted in an f32.
-const MAX_SAMPLES: u32 = 1 << 24;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SceneFile {
-    #[serde(default)]
-    description: String,
-    view: ViewFile,
-    scratch: ScratchFile,
-    #[serde(default)]
-    light: Vec<LightFile>,
-    spectrum: SpectrumFile,
-    reference: ReferenceFile,
-    monte_carlo: Option<MonteCarloFile>,
-    #[serde(default)]
-    approximation: Vec<ApproximationFile>,
-    #[serde(default)]
-    budget: BTreeMap<String, Budget>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ViewFile {
-    kind: String,
-    width: i64,
-    height: i64,
-    exposure: Option<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ScratchFile {
-    width_um: f64,
-    depth_um: f64,
-    coherence_radius_um: f64,
-    #[serde(default)]
-    direction_deg: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LightFile {
-    kind: String,
-    centre: Option<[f64; 3]>,
-    radius: Option<f64>,
-    vertices: Option<Vec<[f64; 3]>>,
-    radiance: Option<toml::Value>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SpectrumFile {
-    kind: String,
-    wavelengths_nm: Option<[f64; 3]>,
-    from_nm: Option<f64>,
-    to_nm: Option<f64>,
-    samples: Option<i64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ReferenceFile {
-    method: String,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MonteCarloFile {
-    samples: i64,
-    seed: Option<u64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ApproximationFile {
-    name: String,
-    sphere: Option<String>,
-    polygon: Option<String>,
-}
+const MAX_SAMPLES: u64 = 1 << 24;
+/// Widths of the maps that are convolved, texels.
+const MAP_WIDTHS: [u64; 2] = [16, 2048];
+/// Largest rank.
+const MOST_TERMS: u64 = 256;
+/// Coordinates.
+const ANYWHERE: [f64; 2] = [-1e9, 1e9];
+/// Factors and lengths.
+const POSITIVE: [f64; 2] = [1e-9, 1e9];
+/// Radiances and limits of errors.
+const NOT_NEGATIVE: [f64; 2] = [0.0, 1e9];
+/// Angles, degrees.
+const TURNS_DEG: [f64; 2] = [-360.0, 360.0];
+/// Sections of earlier schemas, and what they have become.
+const OLD: [(&str, &str); 4] = [
+    ("scratch", "[material] with kind = \"scratch\", and geometry.direction_deg"),
+    ("surface", "[geometry], and material.reflectance"),
+    ("diffraction", "[material.table] of a [material] with kind = \"diffraction\""),
+    ("frame", "[[light]] with kind = \"environment\", map, radiance and turn_deg"),
+];
 
 impl Scene {
     /// Reads and checks a scene.
     ///
     /// # Errors
-    /// [`RenderError::Io`], [`RenderError::Toml`] with the line, [`RenderError::Value`] with the
+    /// [`RenderError::Io`], [`RenderError::Toml`] with the line, [`RenderError::Value`] with line and
     /// key.
     pub fn read(path: &Path) -> Result<Self, RenderError> {
         let shown = path.display().to_string();
@@ -114,263 +56,473 @@ impl Scene {
         Self::parse(&name, &shown, &text)
     }
 
-    /// The same from text; `path` names it in messages.
+    /// Parses and checks the text of a scene; `path` names it in messages, and files are relative to its
+    /// folder.
     ///
     /// # Errors
-    /// As [`Scene::read`].
+    /// [`RenderError::Toml`] with the line, [`RenderError::Value`] with line and key.
     pub fn parse(name: &str, path: &str, text: &str) -> Result<Self, RenderError> {
-        let file: SceneFile = toml::from_str(text).map_err(|error| RenderError::Toml {
-            path: path.to_owned(),
-            report: error.to_string().trim_end().to_owned(),
-        })?;
-        let keys = Keys { path };
-        let spectrum = keys.spectrum(&file.spectrum)?;
+        let mut top = Section::parse(path, text)?;
+        if let Some((old, new)) = OLD.iter().find(|(old, _)| top.has(old)) {
+            return Err(top.wrong(old, format!("[{old}] is now {new}")));
+        }
+        let description = top.text("description")?.unwrap_or_default();
+        let view = view(below(&mut top, "view")?)?;
+        let geometry = geometry(below(&mut top, "geometry")?)?;
+        let material = material(&mut top, path)?;
+        check_view(&top, &view, &geometry, &material)?;
+        let lights = lights(&mut top, &geometry, &material)?;
+        let reference = reference(below(&mut top, "reference")?, &material)?;
+        let monte_carlo = monte_carlo(&mut top, reference)?;
+        let approximations = approximations(&mut top, &material, &lights)?;
+        let names: Vec<&str> = approximations.iter().map(|a| a.name.as_str()).collect();
         let scene = Self {
+            budget: budgets(&mut top, &names)?,
+            choice: top.section("choice")?.map(budget).transpose()?,
+            claims: claims(&mut top, &names)?,
             name: name.to_owned(),
-            description: file.description,
-            view: keys.view(&file.view)?,
-            scratch: keys.scratch(&file.scratch)?,
-            lights: keys.lights(file.light, &spectrum)?,
-            spectrum,
-            reference: keys.reference(&file.reference)?,
-            monte_carlo: file.monte_carlo.map(|section| keys.monte_carlo(&section)).transpose()?,
-            approximations: keys.approximations(file.approximation)?,
-            budget: file.budget,
+            origin: path.to_owned(),
+            description,
+            view,
+            geometry,
+            material,
+            lights,
+            reference,
+            monte_carlo,
+            approximations,
         };
-        keys.consistent(&scene)?;
+        let (elsewhere, kind) = match scene.material {
+            Material::Scratch(..) => ("convolution", "material.kind = \"scratch\""),
+            Material::Diffraction(..) => {
+                ("spectrum", "material.kind = \"diffraction\": its table has R, G and B")
+            }
+        };
+        top.done(&[elsewhere], kind)?;
         Ok(scene)
     }
 }
 
-impl Keys<'_> {
-    fn view(&self, view: &ViewFile) -> Result<View, RenderError> {
-        if view.kind != "equirectangular" {
-            return Err(self.unknown_kind(
-                "view.kind",
-                &view.kind,
-                "\"equirectangular\" or \"camera\"",
-            ));
-        }
-        let side = |key, pixels: i64| match usize::try_from(pixels) {
-            Ok(side) if (1..=MAX_PIXELS).contains(&side) => Ok(side),
-            _ => Err(self.wrong(key, format!("expected 1 to {MAX_PIXELS} pixels, got {pixels}"))),
+/// A table that must be there.
+fn below(section: &mut Section, key: &'static str) -> Result<Section, RenderError> {
+    let found = section.section(key)?;
+    section.needed(key, found)
+}
+
+fn view(mut section: Section) -> Result<View, RenderError> {
+    let kind = section.named("kind", &[("equirectangular", false), ("camera", true)])?;
+    let is_camera = section.needed("kind", kind)?;
+    let mut side = |key| {
+        let pixels = section.count(key, [1, MAX_PIXELS as u64])?;
+        Ok::<_, RenderError>(section.needed(key, pixels)? as usize)
+    };
+    let (width, height) = (side("width")?, side("height")?);
+    if width * height > MAX_PIXELS {
+        let what = format!("{width} by {height} pixels are more than {MAX_PIXELS}");
+        return Err(section.wrong("height", what));
+    }
+    let exposure = section.number("exposure", POSITIVE)?.unwrap_or(1.0);
+    let projection = if is_camera {
+        let position = section.numbers("position", ANYWHERE)?;
+        let target = section.numbers("target", ANYWHERE)?;
+        let degrees = section.number("field_of_view_deg", [1.0, 150.0])?;
+        let camera = Camera {
+            position: section.needed("position", position)?,
+            target: section.needed("target", target)?,
+            field_of_view_rad: section.needed("field_of_view_deg", degrees)?.to_radians(),
         };
-        let (width, height) = (side("view.width", view.width)?, side("view.height", view.height)?);
-        if width * height > MAX_PIXELS {
-            let what = format!("{width} by {height} pixels are more than {MAX_PIXELS}");
-            return Err(self.wrong("view.height", what));
+        if camera.position == camera.target {
+            return Err(section.wrong("target", "is where the camera is"));
         }
-        let exposure = self.within("view.exposure", view.exposure.unwrap_or(1.0), 1e-9, 1e9)?;
-        Ok(View { width, height, exposure })
-    }
+        Projection::Camera(camera)
+    } else {
+        Projection::Equirectangular
+    };
+    let kind = if is_camera { "kind = \"camera\"" } else { "kind = \"equirectangular\"" };
+    section.done(&["position", "target", "field_of_view_deg"], kind)?;
+    Ok(View { width, height, exposure, projection })
+}
 
-    fn scratch(&self, scratch: &ScratchFile) -> Result<Scratch, RenderError> {
-        let number =
-            |key: &str, value, from, to| self.within(&format!("scratch.{key}"), value, from, to);
-        Ok(Scratch {
-            width_um: number("width_um", scratch.width_um, 1e-3, 1e4)?,
-            depth_um: number("depth_um", scratch.depth_um, 0.0, 1e4)?,
-            coherence_radius_um: number(
-                "coherence_radius_um",
-                scratch.coherence_radius_um,
-                0.1,
-                1e5,
-            )?,
-            direction_deg: number("direction_deg", scratch.direction_deg, -360.0, 360.0)?,
-        })
-    }
-
-    fn lights(
-        &self,
-        lights: Vec<LightFile>,
-        spectrum: &Spectrum,
-    ) -> Result<Vec<Light>, RenderError> {
-        if lights.is_empty() {
-            return Err(self.wrong("light", "a scene needs at least one [[light]]"));
+fn geometry(mut section: Section) -> Result<Geometry, RenderError> {
+    const SHAPES: [&str; 4] = ["point", "rectangle", "disc", "sphere"];
+    let shape = section.named("shape", &SHAPES.map(|name| (name, name)))?;
+    let shape = section.needed("shape", shape)?;
+    let geometry = if shape == "point" {
+        let direction_deg = section.number("direction_deg", TURNS_DEG)?.unwrap_or(0.0);
+        Geometry::Point { direction_deg }
+    } else {
+        let centre = section.numbers("centre", ANYWHERE)?.unwrap_or_default();
+        let (normal, tangent) =
+            (section.numbers("normal", ANYWHERE)?, section.numbers("tangent", ANYWHERE)?);
+        let (normal, tangent) =
+            (section.needed("normal", normal)?, section.needed("tangent", tangent)?);
+        if normal == [0.0; 3] {
+            return Err(section.wrong("normal", "expected a vector that is not 0"));
         }
-        let numbered = lights.into_iter().enumerate();
-        numbered.map(|(at, light)| self.light(&format!("light[{at}]"), light, spectrum)).collect()
-    }
+        let frame = Frame::new(normal, tangent, 0.0);
+        match shape {
+            "rectangle" => {
+                let half_size = section.numbers("half_size", [1e-6, 1e9])?;
+                let half_size = section.needed("half_size", half_size)?;
+                Geometry::Rectangle { centre, half_size, frame }
+            }
+            "disc" => {
+                let radii = section.numbers("radii", NOT_NEGATIVE)?;
+                let radii: [f64; 2] = section.needed("radii", radii)?;
+                if radii[0] >= radii[1] {
+                    let what = format!("expected the hole before the rim, got {radii:?}");
+                    return Err(section.wrong("radii", what));
+                }
+                Geometry::Disc { centre, radii, frame }
+            }
+            _ => {
+                let radius = section.number("radius", [1e-6, 1e9])?;
+                Geometry::Sphere { centre, radius: section.needed("radius", radius)?, frame }
+            }
+        }
+    };
+    let own = ["direction_deg", "half_size", "radii", "radius", "centre", "normal", "tangent"];
+    section.done(&own, &format!("shape = \"{shape}\""))?;
+    Ok(geometry)
+}
 
-    fn light(&self, at: &str, light: LightFile, spectrum: &Spectrum) -> Result<Light, RenderError> {
-        let key = |name: &str| format!("{at}.{name}");
-        let radiance = self.radiance(&key("radiance"), light.radiance, spectrum)?;
-        let shape = match light.kind.as_str() {
-            "sphere" => {
-                self.unwanted(&key("vertices"), &light.vertices, "sphere")?;
-                let centre = self.needed(&key("centre"), light.centre)?;
-                let radius = self.needed(&key("radius"), light.radius)?;
-                self.sphere(at, centre, radius)?
-            }
-            "polygon" => {
-                self.unwanted(&key("centre"), &light.centre, "polygon")?;
-                self.unwanted(&key("radius"), &light.radius, "polygon")?;
-                let vertices = self.needed(&key("vertices"), light.vertices)?;
-                let polygon = Polygon::new(&vertices)
-                    .map_err(|fault| self.wrong(key("vertices"), fault.to_string()))?;
-                Shape::Polygon(polygon)
-            }
-            other => {
-                return Err(self.unknown_kind(&key("kind"), other, "\"sphere\" or \"polygon\""));
-            }
+fn material(top: &mut Section, path: &str) -> Result<Material, RenderError> {
+    let mut section = below(top, "material")?;
+    let kind = section.named("kind", &[("scratch", true), ("diffraction", false)])?;
+    let is_scratch = section.needed("kind", kind)?;
+    if is_scratch {
+        let mut length = |key, from, to| {
+            let length = section.number(key, [from, to])?;
+            section.needed(key, length)
         };
-        Ok(Light { shape, radiance })
-    }
-
-    fn sphere(&self, at: &str, centre: [f64; 3], radius: f64) -> Result<Shape, RenderError> {
-        for value in centre {
-            self.within(&format!("{at}.centre"), value, -1e9, 1e9)?;
-        }
-        self.within(&format!("{at}.radius"), radius, 1e-9, 1e9)?;
-        let distance = centre.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if radius >= distance * (1.0 - 1e-6) {
-            let what = format!("{radius} reaches the scratch, {distance} from the centre");
-            return Err(self.wrong(format!("{at}.radius"), what));
-        }
-        Ok(Shape::Sphere { centre, radius })
-    }
-
-    fn radiance(
-        &self,
-        key: &str,
-        value: Option<toml::Value>,
-        spectrum: &Spectrum,
-    ) -> Result<[f64; 3], RenderError> {
-        let number = |value: &toml::Value| match value {
-            toml::Value::Float(number) => self.within(key, *number, 0.0, 1e9),
-            toml::Value::Integer(number) => self.within(key, *number as f64, 0.0, 1e9),
-            other => Err(self.wrong(key, format!("expected a number, got {}", other.type_str()))),
+        let scratch = Scratch {
+            width_um: length("width_um", 1e-3, 1e4)?,
+            depth_um: length("depth_um", 0.0, 1e4)?,
+            coherence_radius_um: length("coherence_radius_um", 0.1, 1e5)?,
         };
-        match value {
-            None => Ok([1.0; 3]),
-            Some(toml::Value::Array(channels)) => {
-                if !matches!(spectrum, Spectrum::Rgb(_)) {
-                    let what = "three radiances need spectrum.kind = \"rgb\"; give one number";
-                    return Err(self.wrong(key, what));
-                }
-                let channels: Vec<f64> = channels.iter().map(number).collect::<Result<_, _>>()?;
-                channels
-                    .try_into()
-                    .map_err(|_| self.wrong(key, "expected one number or three (R, G, B)"))
-            }
-            Some(value) => Ok([number(&value)?; 3]),
+        section.done(&["reflectance", "table"], "kind = \"scratch\"")?;
+        return Ok(Material::Scratch(scratch, spectrum(below(top, "spectrum")?)?));
+    }
+    let reflectance = section.numbers("reflectance", [0.0, 1.0])?.unwrap_or([1.0; 3]);
+    let table = table(below(&mut section, "table")?, path)?;
+    let scratch = ["width_um", "depth_um", "coherence_radius_um"];
+    section.done(&scratch, "kind = \"diffraction\"")?;
+    let convolution = convolution(below(top, "convolution")?)?;
+    Ok(Material::Diffraction(Diffraction { reflectance, table }, convolution))
+}
+
+fn table(mut section: Section, path: &str) -> Result<TableSource, RenderError> {
+    if let Some(file) = section.text("file")? {
+        section.done(&[], "")?;
+        let folder = Path::new(path).parent().unwrap_or(Path::new("."));
+        return Ok(TableSource::File(folder.join(file)));
+    }
+    let settings = section.settings()?.into_iter();
+    Ok(TableSource::Simulated(settings.map(|(key, value)| format!("{key}={value}")).collect()))
+}
+
+fn spectrum(mut section: Section) -> Result<Spectrum, RenderError> {
+    let kind = section.named("kind", &[("rgb", true), ("spectral", false)])?;
+    if section.needed("kind", kind)? {
+        let wavelengths = section.numbers("wavelengths_nm", WAVELENGTHS_NM)?;
+        let wavelengths = section.needed("wavelengths_nm", wavelengths)?;
+        section.done(&["from_nm", "to_nm", "samples"], "kind = \"rgb\"")?;
+        return Ok(Spectrum::Rgb(wavelengths));
+    }
+    let (from, to) =
+        (section.number("from_nm", WAVELENGTHS_NM)?, section.number("to_nm", WAVELENGTHS_NM)?);
+    let (from, to) = (section.needed("from_nm", from)?, section.needed("to_nm", to)?);
+    if from >= to {
+        return Err(section.wrong("to_nm", format!("expected more than {from}, got {to}")));
+    }
+    let count = section.count("samples", [2, MAX_WAVELENGTHS])?;
+    let count = section.needed("samples", count)?;
+    section.done(&["wavelengths_nm"], "kind = \"spectral\"")?;
+    let step = (to - from) / (count - 1) as f64;
+    Ok(Spectrum::Spectral((0..count).map(|i| from + step * i as f64).collect()))
+}
+
+fn convolution(mut section: Section) -> Result<Convolution, RenderError> {
+    let map_width = section.count("map_width", MAP_WIDTHS)?;
+    let map_width = section.needed("map_width", map_width)? as usize;
+    if !map_width.is_multiple_of(2) {
+        return Err(section.wrong("map_width", format!("expected an even number, got {map_width}")));
+    }
+    let ways =
+        [("lookup", Straighten::Lookup), ("back", Straighten::Back), ("none", Straighten::None)];
+    let straighten = section.named("straighten", &ways)?.unwrap_or(Straighten::Lookup);
+    let align = section.flag("align")?.unwrap_or(false);
+    section.done(&[], "")?;
+    Ok(Convolution { map_width, align, straighten })
+}
+
+/// That view, geometry and material are of one kind of scene.
+fn check_view(
+    top: &Section,
+    view: &View,
+    geometry: &Geometry,
+    material: &Material,
+) -> Result<(), RenderError> {
+    let is_camera = matches!(view.projection, Projection::Camera(_));
+    let is_point = matches!(geometry, Geometry::Point { .. });
+    let (fits, what) = match material {
+        Material::Scratch(..) => ([!is_camera, is_point], ["equirectangular", "point"]),
+        Material::Diffraction(..) => {
+            ([is_camera, !is_point], ["camera", "rectangle\", \"disc\" or \"sphere"])
+        }
+    };
+    let kind = match material {
+        Material::Scratch(..) => "scratch",
+        Material::Diffraction(..) => "diffraction",
+    };
+    for ((fits, what), key) in fits.into_iter().zip(what).zip(["view.kind", "geometry.shape"]) {
+        if !fits {
+            let what = format!("material.kind = \"{kind}\" is seen with {key} = \"{what}\"");
+            return Err(top.wrong(key, what));
         }
     }
+    Ok(())
+}
 
-    fn spectrum(&self, spectrum: &SpectrumFile) -> Result<Spectrum, RenderError> {
-        let [shortest, longest] = WAVELENGTHS_NM;
-        let wavelength = |key: &str, value| self.within(key, value, shortest, longest);
-        match spectrum.kind.as_str() {
-            "rgb" => {
-                self.unwanted("spectrum.from_nm", &spectrum.from_nm, "rgb")?;
-                self.unwanted("spectrum.to_nm", &spectrum.to_nm, "rgb")?;
-                self.unwanted("spectrum.samples", &spectrum.samples, "rgb")?;
-                let key = "spectrum.wavelengths_nm";
-                let wavelengths = self.needed(key, spectrum.wavelengths_nm)?;
-                for value in wavelengths {
-                    wavelength(key, value)?;
-                }
-                Ok(Spectrum::Rgb(wavelengths))
-            }
-            "spectral" => {
-                self.unwanted("spectrum.wavelengths_nm", &spectrum.wavelengths_nm, "spectral")?;
-                let from = wavelength(
-                    "spectrum.from_nm",
-                    self.needed("spectrum.from_nm", spectrum.from_nm)?,
-                )?;
-                let to =
-                    wavelength("spectrum.to_nm", self.needed("spectrum.to_nm", spectrum.to_nm)?)?;
-                if from >= to {
-                    return Err(self
-                        .wrong("spectrum.to_nm", format!("expected more than {from}, got {to}")));
-                }
-                let samples = self.needed("spectrum.samples", spectrum.samples)?;
-                let count = usize::try_from(samples).unwrap_or(0);
-                if !(2..=MAX_WAVELENGTHS).contains(&count) {
-                    let what =
-                        format!("expected 2 to {MAX_WAVELENGTHS} wavelengths, got {samples}");
-                    return Err(self.wrong("spectrum.samples", what));
-                }
-                let step = (to - from) / (count - 1) as f64;
-                Ok(Spectrum::Spectral((0..count).map(|i| from + step * i as f64).collect()))
-            }
-            other => Err(self.unknown_kind("spectrum.kind", other, "\"rgb\" or \"spectral\"")),
-        }
+fn lights(
+    top: &mut Section,
+    geometry: &Geometry,
+    material: &Material,
+) -> Result<Vec<Light>, RenderError> {
+    let sections = top.sections("light")?;
+    if sections.is_empty() {
+        return Err(top.wrong("light", "a scene needs at least one [[light]]"));
     }
+    sections.into_iter().map(|section| light(section, geometry, material)).collect()
+}
 
-    fn reference(&self, reference: &ReferenceFile) -> Result<ReferenceMethod, RenderError> {
-        match reference.method.as_str() {
-            "quadrature" => Ok(ReferenceMethod::Quadrature),
-            "monte_carlo" => Ok(ReferenceMethod::MonteCarlo),
-            other => Err(self.unknown_kind(
-                "reference.method",
-                other,
-                "\"quadrature\" or \"monte_carlo\"",
-            )),
-        }
+fn light(
+    mut section: Section,
+    geometry: &Geometry,
+    material: &Material,
+) -> Result<Light, RenderError> {
+    const KINDS: [&str; 3] = ["sphere", "polygon", "environment"];
+    let kind = section.named("kind", &KINDS.map(|name| (name, name)))?;
+    let kind = section.needed("kind", kind)?;
+    if (kind == "environment") != matches!(material, Material::Diffraction(..)) {
+        let what = match material {
+            Material::Scratch(..) => "a scratch at a point is lit by \"sphere\" and \"polygon\"",
+            Material::Diffraction(..) => "a diffractive surface is lit by \"environment\"",
+        };
+        return Err(section.wrong("kind", format!("{what}, got \"{kind}\"")));
     }
-
-    fn monte_carlo(&self, section: &MonteCarloFile) -> Result<MonteCarlo, RenderError> {
-        let samples = u32::try_from(section.samples).unwrap_or(0);
-        let enough = (2 * SAMPLES_PER_PASS..=MAX_SAMPLES).contains(&samples);
-        if !enough || !samples.is_multiple_of(SAMPLES_PER_PASS) {
-            let what = format!(
-                "expected a multiple of {SAMPLES_PER_PASS} from {} to {MAX_SAMPLES}, got {}",
-                2 * SAMPLES_PER_PASS,
-                section.samples
-            );
-            return Err(self.wrong("monte_carlo.samples", what));
-        }
-        Ok(MonteCarlo { samples, seed: section.seed.unwrap_or(1) })
+    let spectral = matches!(material, Material::Scratch(_, Spectrum::Spectral(_)));
+    let radiance = section.colour("radiance", NOT_NEGATIVE)?.unwrap_or([1.0; 3]);
+    if spectral && radiance.iter().any(|channel| *channel != radiance[0]) {
+        let what = "three radiances need spectrum.kind = \"rgb\"; give one number";
+        return Err(section.wrong("radiance", what));
     }
-
-    fn approximations(
-        &self,
-        approximations: Vec<ApproximationFile>,
-    ) -> Result<Vec<ApproximationChoice>, RenderError> {
-        let mut chosen: Vec<ApproximationChoice> = Vec::new();
-        for (at, file) in approximations.into_iter().enumerate() {
-            let key = format!("approximation[{at}].name");
-            let known: Vec<&str> = chosen.iter().map(|other| other.name.as_str()).collect();
-            self.approximation_name(&key, &file.name, &known)?;
-            let ApproximationFile { name, sphere, polygon } = file;
-            chosen.push(ApproximationChoice { name, sphere, polygon });
-        }
-        Ok(chosen)
-    }
-
-    /// What depends on several sections.
-    fn consistent(&self, scene: &Scene) -> Result<(), RenderError> {
-        if scene.reference == ReferenceMethod::MonteCarlo && scene.monte_carlo.is_none() {
-            let what = "reference.method = \"monte_carlo\" needs a section [monte_carlo]";
-            return Err(self.wrong("monte_carlo", what));
-        }
-        for (at, light) in scene.lights.iter().enumerate() {
-            if let Shape::Polygon(polygon) = &light.shape {
+    let shape = match kind {
+        "sphere" => sphere(&mut section)?,
+        "polygon" => {
+            let vertices = section.points("vertices")?;
+            let vertices = section.needed("vertices", vertices)?;
+            let polygon = Polygon::new(&vertices)
+                .map_err(|fault| section.wrong("vertices", fault.to_string()))?;
+            if let Geometry::Point { direction_deg } = geometry {
                 // What is shaded is rounded: it must be a polygon too.
-                Facets::new(polygon, scene.scratch.direction_deg, light.radiance).map_err(
-                    |fault| self.wrong(format!("light[{at}].vertices"), format!("in f32, {fault}")),
-                )?;
+                Facets::new(&polygon, *direction_deg, radiance)
+                    .map_err(|fault| section.wrong("vertices", format!("in f32, {fault}")))?;
             }
+            LightShape::Polygon(polygon)
         }
-        for (at, choice) in scene.approximations.iter().enumerate() {
-            let kinds = [
-                ("sphere", &choice.sphere, scene.has_spheres()),
-                ("polygon", &choice.polygon, scene.has_polygons()),
-            ];
-            for (kind, fit, lit) in kinds {
-                if let Some(name) = fit.as_ref().filter(|name| !is_in_project(name)) {
-                    let what = format!("expected a name inside the project, got \"{name}\"");
-                    return Err(self.wrong(format!("approximation[{at}].{kind}"), what));
-                }
-                if lit && fit.is_none() {
-                    let what = format!("the scene has a {kind}: name the fit that shades it");
-                    return Err(self.wrong(format!("approximation[{at}].{kind}"), what));
-                }
+        _ => {
+            let map = section.text("map")?;
+            let map = section.needed("map", map)?;
+            if map.is_empty() {
+                return Err(section.wrong("map", "is empty"));
             }
+            let turn_rad = section.number("turn_deg", TURNS_DEG)?.unwrap_or(0.0).to_radians();
+            LightShape::Environment { map, turn_rad }
         }
-        let names: Vec<&str> = scene.approximations.iter().map(|a| a.name.as_str()).collect();
-        self.budgets(&scene.budget, &names)?;
-        Ok(())
+    };
+    let own = ["centre", "radius", "vertices", "map", "turn_deg"];
+    section.done(&own, &format!("kind = \"{kind}\""))?;
+    Ok(Light { shape, radiance })
+}
+
+fn sphere(section: &mut Section) -> Result<LightShape, RenderError> {
+    let (centre, radius) =
+        (section.numbers("centre", ANYWHERE)?, section.number("radius", POSITIVE)?);
+    let (centre, radius): ([f64; 3], f64) =
+        (section.needed("centre", centre)?, section.needed("radius", radius)?);
+    let distance = centre.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if radius >= distance * (1.0 - 1e-6) {
+        let what = format!("{radius} reaches the scratch, {distance} from the centre");
+        return Err(section.wrong("radius", what));
     }
+    Ok(LightShape::Sphere { centre, radius })
+}
+
+fn reference(mut section: Section, material: &Material) -> Result<ReferenceMethod, RenderError> {
+    let sampled = ("monte_carlo", ReferenceMethod::MonteCarlo);
+    let method = match material {
+        Material::Scratch(..) => {
+            section.named("method", &[("quadrature", ReferenceMethod::Quadrature), sampled])?
+        }
+        Material::Diffraction(..) => {
+            let full = ("full", ReferenceMethod::Full);
+            section.named("method", &[full, ("integral", ReferenceMethod::Integral), sampled])?
+        }
+    };
+    let method = section.needed("method", method)?;
+    section.done(&[], "")?;
+    Ok(method)
+}
+
+fn monte_carlo(
+    top: &mut Section,
+    reference: ReferenceMethod,
+) -> Result<Option<MonteCarlo>, RenderError> {
+    let Some(mut section) = top.section("monte_carlo")? else {
+        if reference == ReferenceMethod::MonteCarlo {
+            let what = "reference.method = \"monte_carlo\" needs a section [monte_carlo]";
+            return Err(top.wrong("monte_carlo", what));
+        }
+        return Ok(None);
+    };
+    if reference == ReferenceMethod::Full {
+        let what = "samples estimate eq. 3, and reference.method = \"full\" is another quantity, under \
+                    n = view = mirror direction: \"integral\" can be held against them";
+        return Err(section.wrong("", what));
+    }
+    let pass = u64::from(SAMPLES_PER_PASS);
+    let samples = section.count("samples", [2 * pass, MAX_SAMPLES])?;
+    let samples = section.needed("samples", samples)?;
+    if !samples.is_multiple_of(pass) {
+        let what = format!("expected a multiple of {pass}, got {samples}");
+        return Err(section.wrong("samples", what));
+    }
+    let seed = section.count("seed", [0, u64::MAX])?.unwrap_or(1);
+    section.done(&[], "")?;
+    Ok(Some(MonteCarlo { samples: samples as u32, seed }))
+}
+
+fn approximations(
+    top: &mut Section,
+    material: &Material,
+    lights: &[Light],
+) -> Result<Vec<Approximation>, RenderError> {
+    let mut found: Vec<Approximation> = Vec::new();
+    for mut section in top.sections("approximation")? {
+        let name = section.text("name")?;
+        let name = section.needed("name", name)?;
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        let fault = if name.is_empty() || !name.chars().all(plain) {
+            Some(format!("expected letters, digits, _ and -, got \"{name}\""))
+        } else if FILES.contains(&name.as_str()) {
+            Some(format!("\"{name}\" names another file"))
+        } else {
+            let twice = found.iter().any(|other| other.name == name);
+            twice.then(|| format!("\"{name}\" is there twice"))
+        };
+        if let Some(what) = fault {
+            return Err(section.wrong("name", what));
+        }
+        let method = match material {
+            Material::Scratch(..) => forms(section, lights)?,
+            Material::Diffraction(..) => convolved(section)?,
+        };
+        found.push(Approximation { name, method });
+    }
+    if found.is_empty() && matches!(material, Material::Diffraction(..)) {
+        return Err(top.wrong("approximation", "a scene needs at least one [[approximation]]"));
+    }
+    Ok(found)
+}
+
+fn forms(mut section: Section, lights: &[Light]) -> Result<Method, RenderError> {
+    let mut of = |kind, is_lit: bool| {
+        let name = section.text(kind)?;
+        if let Some(name) = name.as_ref().filter(|name| !is_in_project(name)) {
+            let what = format!("expected a name inside the project, got \"{name}\"");
+            return Err(section.wrong(kind, what));
+        }
+        if is_lit && name.is_none() {
+            let what = format!("the scene has a {kind}: name the fit or form that shades it");
+            return Err(section.wrong(kind, what));
+        }
+        Ok(name.filter(|_| is_lit))
+    };
+    let lit = |of: fn(&LightShape) -> bool| lights.iter().any(|light| of(&light.shape));
+    let sphere = of("sphere", lit(|shape| matches!(shape, LightShape::Sphere { .. })))?;
+    let polygon = of("polygon", lit(|shape| matches!(shape, LightShape::Polygon(_))))?;
+    section.done(&["method", "rank", "factors"], "material.kind = \"scratch\"")?;
+    Ok(Method::Forms { sphere, polygon })
+}
+
+fn convolved(mut section: Section) -> Result<Method, RenderError> {
+    const METHODS: [&str; 5] = ["two_pass", "printed", "sum", "line", "reconstructed"];
+    let name = section.named("method", &METHODS.map(|name| (name, name)))?;
+    let name = section.needed("method", name)?;
+    let mut rank = || -> Result<usize, RenderError> {
+        Ok(section.count("rank", [1, MOST_TERMS])?.unwrap_or(1) as usize)
+    };
+    let method = match name {
+        "two_pass" => {
+            let rank = rank()?;
+            let ways = [("svd", Factors::Svd), ("convolution", Factors::Convolution)];
+            let factors = section.named("factors", &ways)?.unwrap_or(Factors::Svd);
+            Method::TwoPass { rank, factors }
+        }
+        "printed" => Method::Printed { rank: rank()? },
+        "reconstructed" => Method::Reconstructed { rank: rank()? },
+        "sum" => Method::Sum,
+        _ => Method::Line,
+    };
+    let elsewhere = ["rank", "factors", "sphere", "polygon"];
+    section.done(&elsewhere, &format!("method = \"{name}\""))?;
+    Ok(method)
+}
+
+/// Whether a fit or a file is named by its place in the project: no `..`, no absolute path.
+fn is_in_project(name: &str) -> bool {
+    let plain = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+    !name.contains('\\') && Path::new(name).components().all(plain)
+}
+
+fn budgets(top: &mut Section, names: &[&str]) -> Result<BTreeMap<String, Budget>, RenderError> {
+    let Some(mut section) = top.section("budget")? else { return Ok(BTreeMap::new()) };
+    let named = section.by_name()?.into_iter();
+    named
+        .map(|(name, section)| {
+            if !names.contains(&name.as_str()) {
+                return Err(section.wrong("", "there is no approximation of that name"));
+            }
+            Ok((name, budget(section)?))
+        })
+        .collect()
+}
+
+fn budget(mut section: Section) -> Result<Budget, RenderError> {
+    let budget = Budget {
+        relative_rms: section.number("relative_rms", NOT_NEGATIVE)?,
+        flip: section.number("flip", NOT_NEGATIVE)?,
+    };
+    if budget == Budget::default() && !section.is_left() {
+        return Err(section.wrong("", "expected `relative_rms`, `flip` or both, got neither"));
+    }
+    section.done(&[], "")?;
+    Ok(budget)
+}
+
+fn claims(top: &mut Section, names: &[&str]) -> Result<Vec<SceneClaim>, RenderError> {
+    let sections = top.sections("claim")?.into_iter();
+    sections
+        .map(|mut section| {
+            let check = section.named("check", &claims::CHECKS.map(|(name, _)| (name, name)))?;
+            let check = section.needed("check", check)?;
+            let (place, printed) = (section.text("place")?, section.text("printed")?);
+            let of = section.names()?;
+            let claim = SceneClaim { check: check.to_owned(), place, printed, of };
+            match claims::fault(&claim, names) {
+                Some((key, what)) => Err(section.wrong(&key, what)),
+                None => Ok(claim),
+            }
+        })
+        .collect()
 }

@@ -3,55 +3,36 @@
 use super::compare::error_map::ErrorMap;
 use super::error::RenderError;
 use super::image::{Channel, Image};
-use super::rendered::RenderedScene;
-use super::scene::{Scene, View};
+use super::rendered::Rendered;
 use super::srgb::decoded;
-use super::surface::RenderedSurface;
 
 /// Pixels between images.
 const GAP: usize = 4;
-/// Relative error that has the last colour in the pictures of surfaces.
-pub const SURFACE_ERROR: f64 = 1.0;
 /// Value of the gaps: above what is displayed, so that it shows white at any exposure from 0.01.
 const GAP_VALUE: f32 = 100.0;
+/// Share of the pixels whose errors may go beyond the scale that the errors are shown on: a few
+/// highlights would leave everything else black.
+const BEYOND: f64 = 0.005;
 
-/// Reference and approximations in a row; below, Monte Carlo (black if there is none) and the errors
-/// of the approximations in false colours, all on one scale, which is returned too.
+/// The reference, with Monte Carlo beside it (black if there is none), and below it each approximation
+/// with its error in false colours, all on one scale, which is returned too.
 ///
 /// # Errors
 /// [`RenderError::Compare`] if images do not match.
-pub fn comparison(scene: &Scene, rendered: &RenderedScene) -> Result<(Image, f64), RenderError> {
-    let View { width, height, exposure } = scene.view;
-    let found = &rendered.approximations;
-    let pictures: Vec<&Image> = found.iter().map(|a| &a.image).collect();
-    let scale = found.iter().map(|a| a.error.scale).fold(0.0, f64::max);
+pub fn comparison(rendered: &Rendered, exposure: f64) -> Result<(Image, f64), RenderError> {
+    let (found, reference) = (&rendered.approximations, &rendered.reference);
+    let pictures: Vec<&Image> = found.iter().map(|a| &a.picture.image).collect();
+    let scale = found.iter().map(|a| a.error.covering(BEYOND)).fold(0.0, f64::max);
     let scale = if scale > 0.0 { scale } else { 1.0 };
-    let errors = error_pictures(&pictures, &rendered.reference, exposure, scale)?;
-    let blank = Image::rgb(width, height, &vec![[0.0; 3]; width * height]);
-    let mut images = vec![&rendered.reference];
-    images.extend(&pictures);
-    images.push(rendered.monte_carlo.as_ref().map_or(&blank, |sampled| &sampled.image));
-    images.extend(&errors);
-    Ok((side_by_side(&images, found.len() + 1), scale))
-}
-
-/// A row per picture of a surface, the reference first: the picture, and where it errs, black for 0
-/// to pale for [`SURFACE_ERROR`].
-///
-/// # Errors
-/// As [`comparison`].
-pub fn surface_comparison(exposure: f64, rendered: &RenderedSurface) -> Result<Image, RenderError> {
-    let found = &rendered.approximations;
-    let reference = &rendered.reference;
-    let pictures: Vec<&Image> = found.iter().map(|a| &a.image).collect();
-    let errors = error_pictures(&pictures, reference, exposure, SURFACE_ERROR)?;
+    let errors = error_pictures(&pictures, reference, exposure, scale)?;
     let pixels = reference.width * reference.height;
     let blank = Image::rgb(reference.width, reference.height, &vec![[0.0; 3]; pixels]);
-    let mut images = vec![reference, &blank];
+    let noisy = rendered.monte_carlo.as_ref().map_or(&blank, |sampled| &sampled.image);
+    let mut images = vec![reference, noisy];
     for (image, error) in pictures.iter().zip(&errors) {
         images.extend([*image, error]);
     }
-    Ok(side_by_side(&images, 2))
+    Ok((side_by_side(&images, 2), scale))
 }
 
 /// Errors in false colours, all on one scale.

@@ -9,7 +9,6 @@ use std::time::{Duration, Instant};
 
 use super::error::RenderError;
 use super::image::{Channel, Image};
-use super::scene::View;
 
 /// Pixels of the first tile.
 const FIRST_PIXELS: usize = 1024;
@@ -43,19 +42,19 @@ pub enum Event<'a> {
     },
 }
 
-/// Makes an image of the named channels; `tile` returns one column each for a range of pixels,
+/// Makes an image of the named channels, `size` its width and height; `tile` returns one column each for a range of pixels,
 /// counted row by row.
 ///
 /// # Errors
 /// [`RenderError::Interrupted`] with what is finished, from the first error of `tile`.
 pub(super) fn image(
     name: &str,
-    view: &View,
+    size: [usize; 2],
     channels: &[&str],
     watch: &mut dyn FnMut(Event<'_>),
     tile: impl FnMut(Range<usize>) -> Result<Vec<Vec<f32>>, RenderError>,
 ) -> Result<Image, RenderError> {
-    in_tiles(name, view, channels, watch, tile, following)
+    in_tiles(name, size, channels, watch, tile, following)
 }
 
 /// Pixels of the tile after one of `pixels` that took `time`.
@@ -71,20 +70,17 @@ fn following(pixels: usize, time: Duration) -> usize {
 /// [`image()`] with another choice of the size of tiles.
 fn in_tiles(
     name: &str,
-    view: &View,
+    size: [usize; 2],
     channels: &[&str],
     watch: &mut dyn FnMut(Event<'_>),
     mut tile: impl FnMut(Range<usize>) -> Result<Vec<Vec<f32>>, RenderError>,
     following: impl Fn(usize, Duration) -> usize,
 ) -> Result<Image, RenderError> {
-    let total = view.width * view.height;
+    let [width, height] = size;
+    let total = width * height;
     let blank =
         |name: &&str| Channel { name: (*name).to_owned(), values: Vec::with_capacity(total) };
-    let mut image = Image {
-        width: view.width,
-        height: view.height,
-        channels: channels.iter().map(blank).collect(),
-    };
+    let mut image = Image { width, height, channels: channels.iter().map(blank).collect() };
     let (mut start, mut pixels) = (0, FIRST_PIXELS);
     while start < total {
         let end = total.min(start + pixels);
@@ -120,11 +116,10 @@ fn in_tiles(
 mod tests {
     use super::*;
     use crate::gpu::GpuError;
-    use crate::render::illumination::directions;
+    use crate::render::view::{Projection, View};
 
     #[test]
     fn finished_tiles_are_kept_when_the_device_is_lost() {
-        let view = View { width: 256, height: 128, exposure: 1.0 };
         let mut kept = None;
         let mut watch = |event: Event<'_>| {
             if let Event::Image { image, whole, .. } = event {
@@ -138,7 +133,8 @@ mod tests {
             Ok(vec![vec![1.0; pixels.len()]; 3])
         };
         let channels = ["R", "G", "B"];
-        let error = in_tiles("ours", &view, &channels, &mut watch, tile, |pixels, _| pixels).err();
+        let error =
+            in_tiles("ours", [256, 128], &channels, &mut watch, tile, |pixels, _| pixels).err();
         let text = error.map(|error| error.to_string()).unwrap_or_default();
         assert!(text.starts_with("ours: stopped after 16384 of 32768 pixels"), "{text}");
         assert!(text.contains("the device was lost: unplugged"), "{text}");
@@ -158,10 +154,11 @@ mod tests {
 
     #[test]
     fn an_image_does_not_depend_on_its_tiles() -> Result<(), RenderError> {
-        let view = View { width: 160, height: 80, exposure: 1.0 };
+        let projection = Projection::Equirectangular;
+        let view = View { width: 160, height: 80, exposure: 1.0, projection };
         let picture = |following: fn(usize, Duration) -> usize| {
-            let tile = |pixels| Ok(directions(&view, 30.0, pixels).to_vec());
-            in_tiles("ours", &view, &["x", "y"], &mut |_| (), tile, following)
+            let tile = |pixels| Ok(view.directions(30.0, pixels).to_vec());
+            in_tiles("ours", [160, 80], &["x", "y"], &mut |_| (), tile, following)
         };
         let whole = picture(|_, _| 1 << 20)?;
         assert_eq!(whole.channels[1].values.len(), 12800);

@@ -17,6 +17,7 @@ use crate::fit;
 use crate::gpu::{self, Device};
 use crate::numeric::measured::Measured;
 use crate::project::{Project, Subject};
+use crate::render::Scenes;
 use crate::validate::ValidateError;
 use crate::validate::cost::{Costs, costs};
 use crate::validate::regions::Atlas;
@@ -32,6 +33,8 @@ pub struct Run {
     pub device: Measured<Device>,
     /// Points of regions with the values of references.
     pub atlas: Atlas,
+    /// Scenes with their references and pictures.
+    pub scenes: Scenes,
     /// What fits share.
     pub fits: fit::Context,
 }
@@ -128,6 +131,7 @@ impl Run {
             project: project.clone(),
             device,
             atlas: Atlas::default(),
+            scenes: Scenes::default(),
             fits: fit::Context::new(project.root(), project.registry()),
         }
     }

@@ -5,12 +5,9 @@ use std::path::Path;
 use super::{Run, RunError, write_accuracy};
 use crate::document::{Colophon, Page};
 use crate::gate::{Check, Judgement, SCENES};
-use crate::render::surface::render_surface;
-use crate::render::{AnyScene, Backend, Resources, render_scene};
+use crate::render::{Backend, render};
 use crate::report::html::{Written, write_site};
-use crate::report::pages::{
-    Evidence, SceneEvidence, SurfaceEvidence, effect_page, index_page, scenes_page, surfaces_page,
-};
+use crate::report::pages::{Evidence, SceneEvidence, effect_page, index_page, scenes_page};
 
 impl Run {
     /// Measures every effect, renders every scene and writes the report with the verdicts of `check`
@@ -29,7 +26,7 @@ impl Run {
         if folder == self.project.report() {
             write_accuracy(&self.project.accuracy(), &studied)?;
         }
-        let (scenes, surfaces) = self.scenes(watch)?;
+        let scenes = self.rendered(watch)?;
         watch("the report");
         let gates: Vec<&Judgement> = check.gates.iter().collect();
         let of: Vec<Vec<&Judgement>> = studied
@@ -58,20 +55,10 @@ impl Run {
             .collect();
         let mut pages = vec![index_page(&evidence, &gates)];
         pages.extend(evidence.iter().map(effect_page).collect::<Result<Vec<Page>, _>>()?);
-        let of_scenes = |names: Vec<&str>| -> Vec<&Judgement> {
-            let named = |of: &&Judgement| {
-                let rest = of.gate.subject.strip_prefix(SCENES).unwrap_or_default();
-                names.contains(&rest.split('#').next().unwrap_or_default())
-            };
-            gates.iter().copied().filter(named).collect()
-        };
         if !scenes.is_empty() {
-            let names = scenes.iter().map(|of| of.scene.name.as_str()).collect();
-            pages.push(scenes_page(&scenes, &of_scenes(names))?);
-        }
-        if !surfaces.is_empty() {
-            let names = surfaces.iter().map(|of| of.scene.name.as_str()).collect();
-            pages.push(surfaces_page(&surfaces, &of_scenes(names))?);
+            let on_scenes = |of: &&Judgement| of.gate.subject.starts_with(SCENES);
+            let gates: Vec<&Judgement> = gates.iter().copied().filter(on_scenes).collect();
+            pages.push(scenes_page(&scenes, &gates)?);
         }
         let colophon = Colophon {
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -82,31 +69,18 @@ impl Run {
         Ok(write_site(folder, &pages, &colophon)?)
     }
 
-    fn scenes(
-        &self,
-        watch: &(dyn Fn(&str) + Sync),
-    ) -> Result<(Vec<SceneEvidence>, Vec<SurfaceEvidence>), RunError> {
-        let (fits, data) = (self.project.fits(), self.project.data());
+    fn rendered(&self, watch: &(dyn Fn(&str) + Sync)) -> Result<Vec<SceneEvidence>, RunError> {
         let backend = self.device.value().map_or(Backend::Lanes, Backend::Device);
-        let (mut lobes, mut surfaces) = (Vec::new(), Vec::new());
-        for path in self.project.scenes()? {
-            let shown = path.display().to_string();
-            watch(&shown);
-            let resources = Resources { fits: &fits, data: &data };
-            let failed = |source| RunError::Scene { scene: shown.clone(), source };
-            match AnyScene::read(&path)? {
-                AnyScene::Lobe(scene) => {
-                    let rendered = render_scene(&scene, resources, backend, &mut |_| ());
-                    lobes
-                        .push(SceneEvidence { scene: *scene, rendered: rendered.map_err(failed)? });
-                }
-                AnyScene::Surface(scene) => {
-                    let rendered =
-                        render_surface(&scene, resources, backend, &mut |_| ()).map_err(failed)?;
-                    surfaces.push(SurfaceEvidence { scene: *scene, rendered });
-                }
-            }
-        }
-        Ok((lobes, surfaces))
+        let scenes = self.project.scenes()?.into_iter();
+        scenes
+            .map(|path| {
+                let shown = path.display().to_string();
+                watch(&shown);
+                let failed = |source| RunError::Scene { scene: shown.clone(), source };
+                let scene = self.scenes.prepared(&path, &self.project).map_err(failed)?;
+                let rendered = render(&scene, backend, &mut |_| ()).map_err(failed)?;
+                Ok(SceneEvidence { scene, rendered })
+            })
+            .collect()
     }
 }

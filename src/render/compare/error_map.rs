@@ -72,6 +72,18 @@ impl ErrorMap {
         Self { width: map.width, height: map.height, errors, scale: 1.0 }
     }
 
+    /// The scale, 1, 2 or 5 times a power of ten, beyond which at most `share` of the finite errors lie.
+    pub fn covering(&self, share: f64) -> f64 {
+        let mut finite: Vec<f64> = self.errors.iter().copied().filter(|e| e.is_finite()).collect();
+        finite.sort_by(f64::total_cmp);
+        let beyond = (share * finite.len() as f64) as usize;
+        finite
+            .len()
+            .checked_sub(1 + beyond)
+            .and_then(|at| finite.get(at))
+            .map_or(1.0, |e| rounded_up(*e))
+    }
+
     /// The errors as an image of one channel, `error`.
     pub fn image(&self) -> Image {
         let values = self.errors.iter().map(|error| *error as f32).collect();

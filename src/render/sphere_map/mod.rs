@@ -41,8 +41,8 @@ mod taps;
 
 pub use azimuthal::AzimuthalOperator;
 pub use kernel::AngularKernel;
-pub(in crate::render) use passes::kernel;
-pub use passes::{TimedPass, convolved, looked_up, turned};
+pub use passes::{convolved, turned};
+pub(in crate::render) use passes::{kernel, lookup};
 pub use taps::Taps;
 
 use crate::measured::environment::{Environment, LatLong};

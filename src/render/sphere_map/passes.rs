@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::{SphereMap, Taps};
 use crate::form::{DataTable, Form};
 use crate::render::RenderError;
-use crate::render::backend::{Backend, Painter};
-use crate::render::kernel::Kernel;
+use crate::render::backend::{Backend, Kernel, Painter};
+use crate::render::times::TimedPass;
 
 /// The text of all passes.
 pub(in crate::render) const TEXT: &str = include_str!("sphere_map.wgsl");
@@ -17,31 +17,21 @@ const MOST_TAPS: usize = 1024;
 /// No turn.
 const STILL: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// A kernel with the points of one pass, for timing.
-#[derive(Debug, Clone)]
-pub struct TimedPass {
-    pub(in crate::render) kernel: Kernel,
-    /// Some points, as columns.
-    pub(in crate::render) inputs: Vec<Vec<f32>>,
-    /// Evaluations of the whole pass.
-    pub(in crate::render) evaluations: usize,
-}
-
-/// A kernel over `layers`, which have one size.
+/// A kernel over `layers`, which have one size: a text, its file and the function, with `more` tables.
 pub(in crate::render) fn kernel(
-    text: &str,
-    file: &str,
-    function: &str,
+    (text, file, function): (&str, &str, &str),
     layers: &[SphereMap],
     taps: &Taps,
     per_evaluation: usize,
     turn: [[f64; 3]; 3],
+    more: Vec<DataTable>,
 ) -> Result<Kernel, RenderError> {
     let (width, height) = layers.first().map_or((2, 1), |layer| (layer.width, layer.height));
     let maps: Vec<f32> = layers.iter().flat_map(|layer| layer.rgb.iter().copied()).collect();
     let none = [0.0_f32; Taps::WIDTH];
     let numbers: Arc<[f32]> = if taps.count() == 0 { none.into() } else { taps.numbers().into() };
-    let tables = vec![DataTable::new("environment", maps), DataTable::new("taps", numbers)];
+    let mut tables = vec![DataTable::new("environment", maps), DataTable::new("taps", numbers)];
+    tables.extend(more);
     let form = Form::parse_with(file, text, function, tables)?;
     let value = |name: &str| match name {
         "width" => width as f32,
@@ -68,23 +58,24 @@ pub fn turned(
     turn: [[f64; 3]; 3],
     backend: Backend<'_>,
 ) -> Result<SphereMap, RenderError> {
-    let kernel =
-        kernel(TEXT, FILE, "turned", std::slice::from_ref(map), &Taps::default(), 1, turn)?;
-    Ok(map.with(&Painter::new(&[kernel], backend)?.colours(&map.places())?))
+    let kernel = of_map(map, "turned", turn)?;
+    Ok(map.with(&Painter::new(vec![kernel], backend)?.colours(&map.places())?))
 }
 
-/// Values of the map in directions given as columns x, y, z; columns R, G, B.
+/// Looks the map up in directions given as columns x, y, z.
 ///
 /// # Errors
-/// As [`turned`].
-pub fn looked_up(
+/// [`RenderError`] if the kernel does not compile.
+pub(in crate::render) fn lookup<'d>(
     map: &SphereMap,
-    directions: &[Vec<f32>],
-    backend: Backend<'_>,
-) -> Result<Vec<Vec<f32>>, RenderError> {
+    backend: Backend<'d>,
+) -> Result<Painter<'d>, RenderError> {
+    Painter::new(vec![of_map(map, "seen", STILL)?], backend)
+}
+
+fn of_map(map: &SphereMap, function: &str, turn: [[f64; 3]; 3]) -> Result<Kernel, RenderError> {
     let layer = std::slice::from_ref(map);
-    let kernel = kernel(TEXT, FILE, "seen", layer, &Taps::default(), 1, STILL)?;
-    Painter::new(&[kernel], backend)?.colours(directions)
+    kernel((TEXT, FILE, function), layer, &Taps::default(), 1, turn, Vec::new())
 }
 
 /// Every layer with its own list of taps, one result per layer. A single layer may take several
@@ -99,8 +90,7 @@ pub fn convolved(
 ) -> Result<Vec<SphereMap>, RenderError> {
     let Some(map) = layers.first() else { return Ok(Vec::new()) };
     let plan = Plan::new(layers, lists);
-    let kernels = [plan.kernel(layers)?];
-    let painter = Painter::new(&kernels, backend)?;
+    let painter = Painter::new(vec![plan.kernel(layers)?], backend)?;
     let [column, row] = map.places();
     let texels = column.len();
     let mut results = Vec::with_capacity(lists.len());
@@ -167,6 +157,7 @@ impl Plan {
     }
 
     fn kernel(&self, layers: &[SphereMap]) -> Result<Kernel, RenderError> {
-        kernel(TEXT, FILE, "convolved", layers, &self.taps, self.per_evaluation, STILL)
+        let text = (TEXT, FILE, "convolved");
+        kernel(text, layers, &self.taps, self.per_evaluation, STILL, Vec::new())
     }
 }

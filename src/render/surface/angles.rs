@@ -3,22 +3,20 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::LEFT_OUT;
 use super::integral::integrals;
-use super::material::Material;
+use super::kernels::DiffractionKernels;
 use super::methods::Surroundings;
-use super::shape::Point;
 use super::sums::table_taps;
 use crate::render::RenderError;
 use crate::render::backend::Backend;
-use crate::render::sphere_map::{AzimuthalOperator, looked_up};
+use crate::render::geometry::{Frame, Hit};
+use crate::render::sphere_map::{AzimuthalOperator, lookup};
 
 /// Angles of incidence, degrees.
 const ANGLES_DEG: [f64; 8] = [2.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 75.0];
 /// Azimuths at each.
 const AZIMUTHS: usize = 24;
-/// Share of the table's energy that the sums leave out.
-const LEFT_OUT: f64 = 1e-4;
-
 /// The convolution under n = ω_o = r_v against eq. 3 at one angle of incidence.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct AngleError {
@@ -33,35 +31,34 @@ pub struct AngleError {
 /// Compares at [`AZIMUTHS`] azimuths per angle on a plane.
 ///
 /// # Errors
-/// As [`looked_up`].
+/// [`RenderError`] if the lookup does not compile.
 pub(super) fn by_angle(
     surroundings: &Surroundings,
-    material: &Material,
+    kernels: &DiffractionKernels,
     operator: &AzimuthalOperator,
-    backend: Backend<'_>,
 ) -> Result<Vec<AngleError>, RenderError> {
-    let (taps, _) = table_taps(&material.table).thinned(LEFT_OUT);
+    let (taps, _) = table_taps(&kernels.table).thinned(LEFT_OUT);
     // In the frame of the surface, in whose map both look: neither is blurred more than the other.
-    let (normal, along) = (Vector3::x(), Vector3::y());
-    let convolved = operator.apply(&surroundings.object);
-    let directions = |points: &[Point]| -> Vec<Vec<f32>> {
-        let column = |axis: usize| points.iter().map(|p| p.reflection[axis] as f32).collect();
+    let frame = Frame::of(Vector3::x(), Vector3::y());
+    let convolved = lookup(&operator.apply(&surroundings.object), Backend::Lanes)?;
+    let directions = |hits: &[Hit]| -> Vec<Vec<f32>> {
+        let column = |axis: usize| hits.iter().map(|hit| hit.reflection[axis] as f32).collect();
         (0..3).map(column).collect()
     };
     ANGLES_DEG
         .iter()
         .map(|&angle_deg| {
             let (sin, cos) = angle_deg.to_radians().sin_cos();
-            let points: Vec<Point> = (0..AZIMUTHS)
+            let hits: Vec<Hit> = (0..AZIMUTHS)
                 .map(|at| {
                     let azimuth = std::f64::consts::TAU * (at as f64 + 0.5) / AZIMUTHS as f64;
                     let (beside, ahead) = azimuth.sin_cos();
                     let reflection = Vector3::new(cos, sin * ahead, sin * beside);
-                    Point { normal, along, reflection }
+                    Hit::of_directions(frame, reflection)
                 })
                 .collect();
-            let exact = integrals(&surroundings.object, &points, &taps);
-            let found = looked_up(&convolved, &directions(&points), backend)?;
+            let exact = integrals(&surroundings.object, &hits, &taps);
+            let found = convolved.colours(&directions(&hits))?;
             let (mut errors, mut squares, mut sums) = (0.0, 0.0, [0.0; 2]);
             for (at, exact) in exact.iter().enumerate() {
                 for (channel, exact) in exact.iter().enumerate() {

@@ -2,15 +2,15 @@
 
 use nalgebra::Vector3;
 
-use super::material::Material;
-use super::scene::{Method, Straighten};
-use super::shape::{Frame, Point};
-use super::sums::{surface_sums, timed};
+use super::kernels::DiffractionKernels;
+use super::sums::timed;
 use crate::render::RenderError;
 use crate::render::backend::Backend;
-use crate::render::sphere_map::{
-    AzimuthalOperator, SphereMap, Taps, TimedPass, convolved, looked_up, turned,
-};
+use crate::render::geometry::{Frame, Hit};
+use crate::render::scene::{Factors, Method, Straighten};
+use crate::render::shading::Columns;
+use crate::render::sphere_map::{SphereMap, Taps, convolved, turned};
+use crate::render::times::TimedPass;
 
 /// What an approximation sums.
 #[derive(Debug, Clone)]
@@ -27,19 +27,20 @@ impl Plan {
     /// Of a method.
     ///
     /// # Errors
-    /// [`RenderError`] if the material cannot be factorised so.
-    pub fn new(method: Method, material: &Material) -> Result<Self, RenderError> {
+    /// [`RenderError`] if the table cannot be factorised so, or forms shade and nothing is summed.
+    pub fn new(method: &Method, kernels: &DiffractionKernels) -> Result<Self, RenderError> {
+        let passes = |factors| Self::Passes(kernels.angular.passes(&factors));
         Ok(match method {
-            Method::TwoPass { rank, factors } => {
-                Self::Passes(material.kernel.passes(&material.factors(rank, factors)?))
-            }
+            Method::TwoPass { rank, factors } => passes(kernels.factors(*rank, *factors)?),
             Method::Printed { rank } => {
-                let factors = material.factors(rank, super::scene::Factors::Svd)?;
-                Self::Passes(material.kernel.passes(&factors.cross_rank_printed()))
+                passes(kernels.factors(*rank, Factors::Svd)?.cross_rank_printed())
             }
-            Method::Sum => Self::Single(material.blurs()?),
-            Method::Line => Self::Sums(material.line()?),
-            Method::Reconstructed { rank } => Self::Sums(material.reconstructed(rank)?),
+            Method::Sum => Self::Single(kernels.blurs()?),
+            Method::Line => Self::Sums(kernels.line()?),
+            Method::Reconstructed { rank } => Self::Sums(kernels.reconstructed(*rank)?),
+            Method::Forms { .. } => {
+                return Err(RenderError::Simulation("forms sum no diffraction table".into()));
+            }
         })
     }
 
@@ -69,11 +70,11 @@ impl Plan {
         Ok(Some(sum))
     }
 
-    /// The kernels to time: passes over `map`, or sums at `points`.
+    /// The kernels to time: passes over `map`, or sums at `hits`.
     ///
     /// # Errors
     /// [`RenderError`] if a kernel does not parse.
-    pub fn timed(&self, map: &SphereMap, points: &[Point]) -> Result<Vec<TimedPass>, RenderError> {
+    pub fn timed(&self, map: &SphereMap, hits: &[Hit]) -> Result<Vec<TimedPass>, RenderError> {
         let one = std::slice::from_ref(map);
         Ok(match self {
             Self::Passes(terms) => {
@@ -82,7 +83,7 @@ impl Plan {
                 vec![TimedPass::convolved(one, &first)?, TimedPass::convolved(&layers, &second)?]
             }
             Self::Single(taps) => vec![TimedPass::convolved(one, std::slice::from_ref(taps))?],
-            Self::Sums(taps) => vec![timed(map, points, taps)?],
+            Self::Sums(taps) => vec![timed(map, hits, taps)?],
         })
     }
 
@@ -117,68 +118,51 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    /// Turns `world` into `frame`.
+    /// Turns `world` into `frame`, on the CPU.
     ///
     /// # Errors
-    /// [`RenderError`] if the kernel does not compile or the device fails.
-    pub fn new(world: SphereMap, frame: Frame, backend: Backend<'_>) -> Result<Self, RenderError> {
+    /// [`RenderError`] if the kernel does not compile.
+    pub fn new(world: SphereMap, frame: Frame) -> Result<Self, RenderError> {
         let rows = frame.rows();
         // A direction d of the object is Σ rows[i] d_i in the world.
         let turn = [0, 1, 2].map(|axis| rows.map(|row| row[axis]));
-        let object = turned(&world, turn, backend)?;
+        let object = turned(&world, turn, Backend::Lanes)?;
         Ok(Self { world, object, frame })
     }
 
-    /// Radiance at `points` by `plan`, for F₀ = 1: columns R, G, B.
+    /// The map convolved by `plan`, and whether it is looked up in the frame of the surface.
     ///
     /// # Errors
-    /// [`RenderError`] if a kernel does not compile or the device fails.
-    pub fn shaded(
+    /// [`RenderError`] if a kernel does not compile, the device fails, or the plan sums at points.
+    pub fn convolved(
         &self,
         plan: &Plan,
-        points: &[Point],
         straighten: Straighten,
         backend: Backend<'_>,
-    ) -> Result<Vec<Vec<f32>>, RenderError> {
-        let reflections = |of: &dyn Fn(&Point) -> Vector3<f64>| -> Vec<Vec<f32>> {
-            let column = |axis| points.iter().map(|point| of(point)[axis] as f32).collect();
-            (0..3).map(column).collect()
-        };
-        if let Plan::Sums(taps) = plan {
-            return surface_sums(&self.world, points, taps, backend);
-        }
-        let missing = || RenderError::Simulation("a plan without terms".into());
-        let in_world = reflections(&|point| point.reflection);
+    ) -> Result<(SphereMap, bool), RenderError> {
+        let missing = || RenderError::Simulation("a plan without passes over a map".into());
         if straighten == Straighten::None {
             let plan = plan.turned(self.turn_in_world());
-            let map = plan.convolved(&self.world, backend)?.ok_or_else(missing)?;
-            return looked_up(&map, &in_world, backend);
+            return Ok((plan.convolved(&self.world, backend)?.ok_or_else(missing)?, false));
         }
         let map = plan.convolved(&self.object, backend)?.ok_or_else(missing)?;
-        if straighten == Straighten::Back {
-            let rows = self.frame.rows().map(|row| [row.x, row.y, row.z]);
-            return looked_up(&turned(&map, rows, backend)?, &in_world, backend);
+        if straighten == Straighten::Lookup {
+            return Ok((map, true));
         }
-        looked_up(&map, &self.in_object(points), backend)
+        let rows = self.frame.rows().map(|row| [row.x, row.y, row.z]);
+        Ok((turned(&map, rows, backend)?, false))
     }
 
-    /// Radiance at `points` by the whole kernel under n = ω_o = r_v, in f64 by FFT.
-    ///
-    /// # Errors
-    /// [`RenderError`] if the lookup does not compile or the device fails.
-    pub fn shaded_by_all(
-        &self,
-        operator: &AzimuthalOperator,
-        points: &[Point],
-        backend: Backend<'_>,
-    ) -> Result<Vec<Vec<f32>>, RenderError> {
-        looked_up(&operator.apply(&self.object), &self.in_object(points), backend)
+    /// Mirror directions of hits in the frame of the world.
+    pub fn in_world(&self, hits: &[Hit]) -> Columns {
+        let column = |axis| hits.iter().map(|hit| hit.reflection[axis] as f32).collect();
+        (0..3).map(column).collect()
     }
 
-    fn in_object(&self, points: &[Point]) -> Vec<Vec<f32>> {
-        let column = |axis: &Vector3<f64>| {
-            points.iter().map(|point| point.reflection.dot(axis) as f32).collect()
-        };
+    /// Mirror directions of hits in the frame of the surface.
+    pub fn in_object(&self, hits: &[Hit]) -> Columns {
+        let column =
+            |axis: &Vector3<f64>| hits.iter().map(|hit| hit.reflection.dot(axis) as f32).collect();
         self.frame.rows().iter().map(column).collect()
     }
 

@@ -1,30 +1,332 @@
-//! Surfaces under an environment: a camera, a shape with a field of tangents, a diffraction table for
-//! a material, and the ways to convolve the environment with it.
-//!
-//! [`Camera`] and [`Shape`] know nothing of diffraction: a shape gives a [`Point`] per pixel, a plan
-//! of a method ([`Plan`]) turns points and maps into colours. Another shape, light or shading model
-//! joins there.
+//! Surfaces with a diffraction table under environments: the ways to convolve an environment with the
+//! table, and eq. 3 of toisoul2017 at every point.
 
 mod angles;
-mod camera;
-pub mod findings;
 mod integral;
-mod material;
+mod kernels;
 mod methods;
-mod rendered;
-pub mod scene;
-mod scene_file;
-mod shape;
-mod speed;
+mod sampling;
 mod sums;
 
+use std::ops::Range;
+use std::path::Path;
+use std::sync::OnceLock;
+
 pub use angles::AngleError;
-pub use camera::Camera;
 pub use integral::integrals;
-pub use material::Material;
+pub use kernels::DiffractionKernels;
 pub use methods::{Plan, Surroundings};
-pub use rendered::{PreparedSurface, RenderedSurface, SurfaceApproximation, render_surface};
-pub use scene::SurfaceScene;
-pub use shape::{Frame, Point, Shape};
-pub use speed::ConvolutionTimes;
 pub use sums::{line_taps, surface_sums, table_taps};
+
+use super::backend::{Backend, Painter};
+use super::error::RenderError;
+use super::geometry::{Geometry, Hit};
+use super::scene::{Convolution, Light, LightShape, Material, Method, ReferenceMethod, Scene};
+use super::shading::{Columns, Details, Moved, Sampler, Shader, Shading};
+use super::sphere_map::{AzimuthalOperator, SphereMap, Taps, lookup};
+use super::times::TimedPass;
+use super::view::{Camera, Projection};
+use crate::document::{Block, Cell, Column, Table};
+use crate::gpu::TimingOptions;
+use crate::measured::environment::Environment;
+use crate::measured::spectra::Spectra;
+use crate::project::Project;
+use sums::{Sums, timed};
+
+/// Share of the table's energy that sums at every pixel leave out.
+const LEFT_OUT: f64 = 1e-4;
+
+/// A diffractive surface before a camera, with a frame per environment.
+#[derive(Debug)]
+pub(super) struct Surface {
+    reference: ReferenceMethod,
+    reflectance: [f64; 3],
+    convolution: Convolution,
+    kernels: DiffractionKernels,
+    frames: Vec<Lit>,
+    approximations: Vec<(Method, OnceLock<Plan>)>,
+    operator: OnceLock<AzimuthalOperator>,
+}
+
+/// What is seen of the surface in one frame, and what it is lit by.
+#[derive(Debug)]
+struct Lit {
+    /// Pixels of the picture, in order, where the surface is met.
+    pixels: Vec<usize>,
+    hits: Vec<Hit>,
+    surroundings: Surroundings,
+}
+
+/// Shades what pixels of the picture show of one frame.
+type HitShader<'a> = Box<dyn Fn(&[usize], &[Hit]) -> Result<Columns, RenderError> + 'a>;
+
+impl Surface {
+    /// Loads what `scene` names and finds what its pixels show; none for a scene of another kind.
+    ///
+    /// # Errors
+    /// [`RenderError`]: maps or tables that do not load, or a table that cannot be factorised.
+    pub(super) fn prepare(scene: &Scene, project: &Project) -> Result<Option<Self>, RenderError> {
+        let (Projection::Camera(camera), Material::Diffraction(material, convolution)) =
+            (scene.view.projection, &scene.material)
+        else {
+            return Ok(None);
+        };
+        let [width, height] = [scene.view.width, scene.view.height];
+        let mut environments = Vec::new();
+        for light in &scene.lights {
+            if let LightShape::Environment { map, turn_rad } = &light.shape {
+                environments.push((light, *turn_rad, environment(map, &project.data())?));
+            }
+        }
+        let across = width * environments.len();
+        let mut frames = Vec::with_capacity(environments.len());
+        for (place, (light, turn_rad, environment)) in environments.iter().enumerate() {
+            let map = radiance(light, environment, convolution.map_width)?;
+            let mut lit =
+                Lit::new(&camera, [width, height], scene.geometry.turned(*turn_rad), map)?;
+            for pixel in &mut lit.pixels {
+                *pixel = (*pixel / width) * across + place * width + *pixel % width;
+            }
+            frames.push(lit);
+        }
+        let spectra = Spectra::load(&project.data().join("spectra"))?;
+        let seen = environments.into_iter().map(|(_, _, environment)| environment).collect();
+        let methods = scene.approximations.iter().map(|of| of.method.clone());
+        Ok(Some(Self {
+            reference: scene.reference,
+            reflectance: material.reflectance,
+            convolution: *convolution,
+            kernels: DiffractionKernels::new(&material.table, convolution.align, &spectra, seen)?,
+            frames,
+            approximations: methods.map(|method| (method, OnceLock::new())).collect(),
+            operator: OnceLock::new(),
+        }))
+    }
+
+    /// What an approximation sums, made when it is first asked for.
+    fn plan(&self, at: usize) -> Result<&Plan, RenderError> {
+        let missing = RenderError::NoApproximation { at };
+        let (method, plan) = self.approximations.get(at).ok_or(missing)?;
+        match plan.get() {
+            Some(plan) => Ok(plan),
+            None => {
+                let made = Plan::new(method, &self.kernels)?;
+                Ok(plan.get_or_init(|| made))
+            }
+        }
+    }
+
+    fn operator(&self) -> &AzimuthalOperator {
+        let width = self.convolution.map_width;
+        let made = || AzimuthalOperator::new(&self.kernels.angular.taps(), width, width / 2);
+        self.operator.get_or_init(made)
+    }
+
+    /// The cells of the table that sums at every pixel keep.
+    fn taps(&self) -> Taps {
+        table_taps(&self.kernels.table).thinned(LEFT_OUT).0
+    }
+
+    /// The picture, from one shader per frame; black where nothing is met.
+    fn over<'a>(&'a self, shaders: Vec<HitShader<'a>>) -> Shader<'a> {
+        Box::new(move |range| {
+            let mut picture = vec![vec![0.0_f32; range.len()]; 3];
+            for (lit, shade) in self.frames.iter().zip(&shaders) {
+                let (pixels, hits) = lit.within(&range);
+                if hits.is_empty() {
+                    continue;
+                }
+                let columns = shade(pixels, hits)?.into_iter().zip(self.reflectance);
+                for (channel, (column, reflectance)) in picture.iter_mut().zip(columns) {
+                    for (pixel, value) in pixels.iter().zip(column) {
+                        channel[pixel - range.start] = (f64::from(value) * reflectance) as f32;
+                    }
+                }
+            }
+            Ok(picture)
+        })
+    }
+
+    fn first(&self) -> Result<&Lit, RenderError> {
+        self.frames.first().ok_or_else(|| RenderError::Simulation("there is no frame".into()))
+    }
+}
+
+impl Lit {
+    fn new(
+        camera: &Camera,
+        size: [usize; 2],
+        shape: Geometry,
+        map: SphereMap,
+    ) -> Result<Self, RenderError> {
+        let hits = (0..size[0] * size[1])
+            .filter_map(|pixel| Some((pixel, shape.hit(&camera.ray(size, pixel))?)));
+        let (pixels, hits) = hits.unzip();
+        Ok(Self { pixels, hits, surroundings: Surroundings::new(map, shape.frame())? })
+    }
+
+    /// What pixels of a range show.
+    fn within(&self, range: &Range<usize>) -> (&[usize], &[Hit]) {
+        let place = |pixel: usize| self.pixels.partition_point(|other| *other < pixel);
+        let part = place(range.start)..place(range.end);
+        let hits = self.hits.get(part.clone()).unwrap_or_default();
+        (self.pixels.get(part).unwrap_or_default(), hits)
+    }
+}
+
+/// A map of the project by name, or a file.
+fn environment(name: &str, data: &Path) -> Result<Environment, RenderError> {
+    let is_file = Path::new(name).extension().is_some();
+    let path = match is_file {
+        true => Path::new(name).to_path_buf(),
+        false => data.join("environments").join(format!("{name}.exr")),
+    };
+    Ok(Environment::read(path)?)
+}
+
+/// An environment `width` texels around, times the radiance of its light.
+fn radiance(
+    light: &Light,
+    environment: &Environment,
+    width: usize,
+) -> Result<SphereMap, RenderError> {
+    let mut map = SphereMap::from(&environment.resized(width)?);
+    for texel in map.rgb.chunks_exact_mut(3) {
+        let factors = texel.iter_mut().zip(light.radiance);
+        factors.for_each(|(value, factor)| *value *= factor as f32);
+    }
+    Ok(map)
+}
+
+impl Shading for Surface {
+    fn exact(&self) -> Result<Shader<'_>, RenderError> {
+        let mut shaders: Vec<HitShader<'_>> = Vec::with_capacity(self.frames.len());
+        let taps = self.taps();
+        for Lit { surroundings, .. } in &self.frames {
+            shaders.push(if self.reference == ReferenceMethod::Full {
+                let map = self.operator().apply(&surroundings.object);
+                let painter = lookup(&map, Backend::Lanes)?;
+                Box::new(move |_, hits| painter.colours(&surroundings.in_object(hits)))
+            } else {
+                let taps = taps.clone();
+                Box::new(move |_, hits| {
+                    let exact = integrals(&surroundings.world, hits, &taps);
+                    let channel = |at: usize| exact.iter().map(|rgb| rgb[at] as f32).collect();
+                    Ok((0..3).map(channel).collect())
+                })
+            });
+        }
+        Ok(self.over(shaders))
+    }
+
+    fn picture<'a>(
+        &'a self,
+        at: usize,
+        _: Option<Moved<'_>>,
+        backend: Backend<'a>,
+    ) -> Result<Shader<'a>, RenderError> {
+        let plan = self.plan(at)?;
+        let mut shaders: Vec<HitShader<'a>> = Vec::with_capacity(self.frames.len());
+        for Lit { surroundings, .. } in &self.frames {
+            shaders.push(match plan {
+                Plan::Sums(taps) => {
+                    let sums = Sums::new(&surroundings.world, taps, backend)?;
+                    Box::new(move |_, hits| sums.at(hits))
+                }
+                plan => {
+                    let straighten = self.convolution.straighten;
+                    let (map, in_object) = surroundings.convolved(plan, straighten, backend)?;
+                    let painter = lookup(&map, backend)?;
+                    Box::new(move |_, hits| {
+                        painter.colours(&match in_object {
+                            true => surroundings.in_object(hits),
+                            false => surroundings.in_world(hits),
+                        })
+                    })
+                }
+            });
+        }
+        Ok(self.over(shaders))
+    }
+
+    fn sampler<'a>(&'a self, seed: u64, backend: Backend<'a>) -> Result<Sampler<'a>, RenderError> {
+        let taps = self.taps();
+        let mut painters = Vec::with_capacity(self.frames.len());
+        for lit in &self.frames {
+            let kernel = sampling::kernel(&lit.surroundings.world, &taps, seed)?;
+            painters.push(Painter::new(vec![kernel], backend)?);
+        }
+        Ok(Box::new(move |range, first| {
+            let shaders = painters.iter().map(|painter| -> HitShader<'_> {
+                Box::new(move |pixels, hits| painter.colours(&sampling::draws(pixels, hits, first)))
+            });
+            self.over(shaders.collect())(range)
+        }))
+    }
+
+    fn constants(&self, _: usize) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn timed(&self, at: usize) -> Result<Vec<TimedPass>, RenderError> {
+        let lit = self.first()?;
+        self.plan(at)?.timed(&lit.surroundings.object, &lit.hits)
+    }
+
+    fn timed_in_full(&self) -> Result<Vec<TimedPass>, RenderError> {
+        let lit = self.first()?;
+        let map = &lit.surroundings.object;
+        let pass = match self.reference {
+            ReferenceMethod::Full => {
+                TimedPass::convolved(std::slice::from_ref(map), &[self.kernels.angular.taps()])
+            }
+            _ => timed(map, &lit.hits, &table_taps(&self.kernels.table)),
+        };
+        Ok(vec![pass?])
+    }
+
+    fn timed_sampler(&self, seed: u64) -> Result<Vec<TimedPass>, RenderError> {
+        let lit = self.first()?;
+        Ok(vec![TimedPass {
+            kernel: sampling::kernel(&lit.surroundings.world, &self.taps(), seed)?,
+            inputs: sampling::draws(&lit.pixels, &lit.hits, 0),
+            evaluations: lit.hits.len(),
+        }])
+    }
+
+    /// A pass may take a thousand taps per point: few points, and one evaluation of each.
+    fn timing(&self) -> TimingOptions {
+        TimingOptions { points: 256, repeats: 1, ..TimingOptions::default() }
+    }
+
+    fn details(&self) -> Result<Details, RenderError> {
+        let by_angle =
+            angles::by_angle(&self.first()?.surroundings, &self.kernels, self.operator())?;
+        let albedo = self.kernels.angular.albedo();
+        let directions_deg = self.kernels.angular.directions.map(|d| d[1].atan2(d[0]).to_degrees());
+        let ([first, second], [r, g, b]) = (directions_deg, albedo);
+        let table = Table::over(
+            "What n = ω_o = r_v costs in the first frame: the convolution with the whole table against \
+             eq. 3 at 24 azimuths per angle of incidence, on a plane.",
+            &by_angle,
+        )
+        .column(Column::number("incidence", "°"), |of| Cell::number(of.angle_deg, 3))
+        .column(Column::number("relative RMS", "1"), |of| Cell::number(of.relative_rms, 3))
+        .column(Column::number("mean over that of eq. 3", "1"), |of| {
+            Cell::number(of.mean_ratio, 3)
+        });
+        let text = format!(
+            "The axes of the factors lie along {first:.2}° and {second:.2}° of the table. Of a uniform \
+             environment the kernel returns {r:.3}, {g:.3}, {b:.3} in R, G, B."
+        );
+        let figures = [
+            ("albedo", serde_json::json!(albedo)),
+            ("directions_deg", serde_json::json!(directions_deg)),
+            ("by_incidence_angle", serde_json::json!(by_angle)),
+        ];
+        Ok(Details {
+            blocks: vec![Block::Paragraph(text.into()), table.into()],
+            figures: figures.map(|(name, value)| (name.to_owned(), value)).into_iter().collect(),
+        })
+    }
+}

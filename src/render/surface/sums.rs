@@ -1,15 +1,17 @@
 //! Eq. 3 of toisoul2017 at points of a surface, as a sum over the cells of a table.
 
-use super::shape::Point;
 use crate::factor::DirectionalKernel;
+use crate::form::DataTable;
 use crate::render::RenderError;
-use crate::render::backend::{Backend, Painter};
-use crate::render::kernel::Kernel;
-use crate::render::sphere_map::{SphereMap, Taps, TimedPass};
+use crate::render::backend::{Backend, Kernel, Painter};
+use crate::render::geometry::Hit;
+use crate::render::shading::Columns;
+use crate::render::sphere_map::{SphereMap, Taps};
+use crate::render::times::TimedPass;
 use crate::table::{Grid, centres};
 
 /// The text of the kernel: lookups in maps, and the sum.
-const TEXT: &str =
+pub(super) const TEXT: &str =
     concat!(include_str!("../sphere_map/sphere_map.wgsl"), "\n", include_str!("surface_sum.wgsl"));
 /// The file of the sum.
 const FILE: &str = "src/render/surface/surface_sum.wgsl";
@@ -49,64 +51,109 @@ pub fn line_taps(kernels: &[DirectionalKernel]) -> Taps {
     taps
 }
 
-/// Radiance at `points` lit by `map`, for F₀ = 1: columns R, G, B.
+/// A sum over taps under one map, ready for hits.
+pub(super) struct Sums<'d> {
+    painter: Painter<'d>,
+    taps: usize,
+    per_evaluation: usize,
+}
+
+impl<'d> Sums<'d> {
+    /// Makes the kernel.
+    ///
+    /// # Errors
+    /// [`RenderError`] if it does not compile.
+    pub(super) fn new(
+        map: &SphereMap,
+        taps: &Taps,
+        backend: Backend<'d>,
+    ) -> Result<Self, RenderError> {
+        let per_evaluation = taps.count().clamp(1, MOST_TAPS);
+        let kernel = kernel(TEXT, "surface_sum", map, taps, per_evaluation, Vec::new())?;
+        Ok(Self {
+            painter: Painter::new(vec![kernel], backend)?,
+            taps: taps.count(),
+            per_evaluation,
+        })
+    }
+
+    /// Radiance for F₀ = 1.
+    ///
+    /// # Errors
+    /// [`RenderError`] if the device fails.
+    pub(super) fn at(&self, hits: &[Hit]) -> Result<Columns, RenderError> {
+        let mut columns = hit_columns(hits);
+        columns.push(vec![0.0; hits.len()]);
+        let mut sums = vec![vec![0.0_f32; hits.len()]; 3];
+        for first in (0..self.taps).step_by(self.per_evaluation) {
+            if let Some(column) = columns.last_mut() {
+                column.fill(first as f32);
+            }
+            for (sum, column) in sums.iter_mut().zip(self.painter.colours(&columns)?) {
+                sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += value);
+            }
+        }
+        Ok(sums)
+    }
+}
+
+/// Radiance at hits lit by `map`, for F₀ = 1: columns R, G, B.
 ///
 /// # Errors
 /// [`RenderError`] if the kernel does not compile or the device fails.
 pub fn surface_sums(
     map: &SphereMap,
-    points: &[Point],
+    hits: &[Hit],
     taps: &Taps,
     backend: Backend<'_>,
-) -> Result<Vec<Vec<f32>>, RenderError> {
-    let per_evaluation = taps.count().clamp(1, MOST_TAPS);
-    let kernels = [kernel(map, taps, per_evaluation)?];
-    let painter = Painter::new(&kernels, backend)?;
-    let mut columns = point_columns(points);
-    columns.push(vec![0.0; points.len()]);
-    let mut sums = vec![vec![0.0_f32; points.len()]; 3];
-    for first in (0..taps.count()).step_by(per_evaluation) {
-        if let Some(column) = columns.last_mut() {
-            column.fill(first as f32);
-        }
-        for (sum, column) in sums.iter_mut().zip(painter.colours(&columns)?) {
-            sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += value);
-        }
-    }
-    Ok(sums)
+) -> Result<Columns, RenderError> {
+    Sums::new(map, taps, backend)?.at(hits)
 }
 
-/// The same as something to time.
+/// The sum over `taps` at `hits` as something to time.
 ///
 /// # Errors
-/// As [`surface_sums`].
-pub(super) fn timed(
-    map: &SphereMap,
-    points: &[Point],
-    taps: &Taps,
-) -> Result<TimedPass, RenderError> {
+/// [`RenderError`] if the kernel does not parse.
+pub(super) fn timed(map: &SphereMap, hits: &[Hit], taps: &Taps) -> Result<TimedPass, RenderError> {
     let per_evaluation = taps.count().clamp(1, MOST_TAPS);
-    let mut inputs = point_columns(points);
-    inputs.push(vec![0.0; points.len()]);
+    let mut inputs = hit_columns(hits);
+    inputs.push(vec![0.0; hits.len()]);
     Ok(TimedPass {
-        kernel: kernel(map, taps, per_evaluation)?,
+        kernel: kernel(TEXT, "surface_sum", map, taps, per_evaluation, Vec::new())?,
         inputs,
-        evaluations: points.len() * taps.count().div_ceil(per_evaluation),
+        evaluations: hits.len() * taps.count().div_ceil(per_evaluation),
     })
 }
 
-fn kernel(map: &SphereMap, taps: &Taps, per_evaluation: usize) -> Result<Kernel, RenderError> {
+/// A kernel over one map and its taps, and `more` tables.
+///
+/// # Errors
+/// [`RenderError::Form`] if the text does not load.
+pub(super) fn kernel(
+    text: &str,
+    function: &str,
+    map: &SphereMap,
+    taps: &Taps,
+    per_evaluation: usize,
+    more: Vec<DataTable>,
+) -> Result<Kernel, RenderError> {
     let still = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let layer = std::slice::from_ref(map);
-    crate::render::sphere_map::kernel(TEXT, FILE, "surface_sum", layer, taps, per_evaluation, still)
+    let text = (text, FILE, function);
+    crate::render::sphere_map::kernel(text, layer, taps, per_evaluation, still, more)
 }
 
-fn point_columns(points: &[Point]) -> Vec<Vec<f32>> {
-    let vectors = [|p: &Point| p.reflection, |p: &Point| p.normal, |p: &Point| p.along];
+/// Reflection, normal and first direction of hits, as kernels take them.
+pub(super) fn hit_columns(hits: &[Hit]) -> Columns {
+    let vectors = [
+        |hit: &Hit| hit.reflection,
+        |hit: &Hit| hit.frame.normal,
+        |hit: &Hit| hit.frame.tangents[0],
+    ];
     vectors
         .iter()
         .flat_map(|vector| {
-            (0..3).map(|axis| points.iter().map(|point| vector(point)[axis] as f32).collect())
+            (0..3).map(|axis| hits.iter().map(|hit| vector(hit)[axis] as f32).collect())
         })
         .collect()
 }

@@ -9,7 +9,6 @@ mod fits;
 mod gates;
 mod index;
 mod scenes;
-mod surfaces;
 
 use crate::document::{Block, Cell, Inline, NoticeLevel, Page, Section, number};
 use crate::effect::{Effect, FormEntry, Member};
@@ -27,8 +26,7 @@ pub use costs::cost_section;
 pub use fits::{constants, family_constants, status};
 pub use gates::{by_attention, summary, table as gate_table};
 pub use index::index_page;
-pub use scenes::{SceneEvidence, scenes_page};
-pub use surfaces::{SurfaceEvidence, surfaces_page};
+pub use scenes::{SceneEvidence, scene_tables, scenes_page};
 
 /// Everything a page of an effect is made of.
 #[derive(Debug, Clone, Copy)]

@@ -1,22 +1,29 @@
-//! Scenes: reference and approximations as pictures, how they differ, what they cost.
+//! Scenes: reference and approximations as pictures, how they differ, what they cost, and what papers
+//! say of them.
+
+use std::sync::Arc;
 
 use super::gates;
-use crate::document::{Block, Cell, Column, Inline, NoticeLevel, Page, Picture, Section, Table};
+use crate::document::plot::{Axis, Plot, Series};
+use crate::document::{
+    Block, Cell, Column, Figure, Inline, NoticeLevel, Page, Picture, Section, Table,
+};
 use crate::effect::Finding;
 use crate::gate::Judgement;
 use crate::numeric::measured::Measured;
-use crate::render::findings::findings;
-use crate::render::scene::ReferenceMethod;
+use crate::render::claims::findings;
+use crate::render::scene::{LightShape, Scene};
 use crate::render::sheet::comparison;
-use crate::render::{RenderError, RenderedScene, Scene};
+use crate::render::view::Projection;
+use crate::render::{PreparedScene, RenderError, Rendered, RenderedApproximation};
 
 /// A scene and what was rendered of it.
 #[derive(Debug)]
 pub struct SceneEvidence {
     /// The scene.
-    pub scene: Scene,
+    pub scene: Arc<PreparedScene>,
     /// Its pictures and their errors.
-    pub rendered: RenderedScene,
+    pub rendered: Rendered,
 }
 
 /// The page of all scenes, with the gates on them.
@@ -27,92 +34,160 @@ pub fn scenes_page(scenes: &[SceneEvidence], gates: &[&Judgement]) -> Result<Pag
     let mut page = Page::new(
         "scenes",
         "Scenes",
-        "Lobes of a scratch under area lights: the semi-analytic reference beside the published \
-         form and ours, where they err, what they cost, and Monte Carlo at equal error.",
+        "Lobes of a scratch under area lights and diffractive surfaces under environments: the reference \
+         beside the approximations, where they err, what they cost, which is the cheapest that will do, \
+         and Monte Carlo at equal error.",
     );
     for evidence in scenes {
-        page = page.section(section(evidence)?);
+        page = page.section(section(&evidence.scene.scene, &evidence.rendered)?);
     }
     let findings: Vec<Finding> =
-        scenes.iter().flat_map(|of| findings(&of.scene, &of.rendered)).collect();
+        scenes.iter().flat_map(|of| findings(&of.scene.scene, &of.rendered)).collect();
     Ok(page.section(super::findings::table_section(&findings)).section(gates::section(gates)))
 }
 
-fn section(evidence: &SceneEvidence) -> Result<Section, RenderError> {
-    let SceneEvidence { scene, rendered } = evidence;
-    let view = &scene.view;
-    let method = match rendered.method {
-        ReferenceMethod::Quadrature => "quadrature (semi-analytic, f64)",
-        ReferenceMethod::MonteCarlo => "Monte Carlo",
-    };
+fn section(scene: &Scene, rendered: &Rendered) -> Result<Section, RenderError> {
+    let exposure = scene.view.exposure;
     let mut section = Section::new(scene.name.as_str())
         .paragraph(Inline::from(scene.description.clone()))
         .paragraph(format!(
-            "Equirectangular map of view directions, {} × {}: azimuth 0 to 2π from left to right, \
-             polar angle 0 to π/2 from top to bottom; radiance times {}. Reference by {method}; \
-             approximations on {}. `striae render data/scenes/{}.toml` writes these images and more.",
-            view.width, view.height, view.exposure, rendered.backend, scene.name
+            "{}; radiance times {exposure}. Reference: {}; approximations on {}. `striae render \
+             data/scenes/{}.toml` writes these images and more.",
+            seen(scene),
+            rendered.method.words(),
+            rendered.backend,
+            scene.name
         ));
     let names: Vec<&str> =
         rendered.approximations.iter().map(|found| found.name.as_str()).collect();
-    let (sheet, scale) = comparison(scene, rendered)?;
-    let caption = format!(
-        "Above, from left to right: reference, {0}. Below: {1}, then the error of each \
-         ({0}) relative to the root mean square of the reference, black for 0 to pale for {scale}.",
-        names.join(", "),
-        if rendered.monte_carlo.is_some() { "Monte Carlo" } else { "nothing" },
-    );
+    let (sheet, scale) = comparison(rendered, exposure)?;
+    let beside = if rendered.monte_carlo.is_some() { ", Monte Carlo beside it" } else { "" };
     section = section.block(Picture {
-        caption: caption.into(),
+        caption: format!(
+            "Left, from top to bottom: reference{beside}, {}. Right: the error of each relative to the \
+             root mean square of the reference, black for 0 to pale for {scale} and above.",
+            names.join(", ")
+        )
+        .into(),
         file_stem: format!("scene-{}", scene.name.replace('_', "-")),
-        alt: format!("{}: the reference beside its approximations, and their errors", scene.name),
-        png: sheet.png(view.exposure.log2())?,
+        alt: format!("{}: the reference above its approximations, and their errors", scene.name),
+        png: sheet.png(exposure.log2())?,
     });
-    section = section.block(errors(evidence));
-    Ok(section.block(monte_carlo(rendered)))
+    section.blocks.extend(scene_tables(rendered));
+    Ok(section)
 }
 
-fn errors(evidence: &SceneEvidence) -> Table {
-    let SceneEvidence { scene, rendered } = evidence;
-    let pixels = (scene.view.width * scene.view.height) as f64;
-    let mut table = Table::new(
-        "Approximations against the reference, over all pixels and channels. The time is that of the \
-         kernels on the device for the whole image. Monte Carlo at equal error: its time over that \
-         of the approximation when its RMS error is the same.",
-        vec![
-            Column::code("approximation"),
-            Column::code("shaded by"),
-            Column::number("relative RMS", "1"),
-            Column::number("FLIP", "1"),
-            Column::number("max |error|", "radiance"),
-            Column::text("where (x, y, channel)"),
-            Column::number("time", "ms"),
-            Column::number("samples at equal error", "1"),
-            Column::number("Monte Carlo, times slower", "1"),
-        ],
-    );
-    for found in &rendered.approximations {
-        let (metrics, at) = (&found.metrics, &found.metrics.at);
-        let measured = |value: Measured<f64>| match value {
-            Measured::Value(value) => Cell::number(value, 3),
-            Measured::NotMeasured(reason) => Cell::missing(reason),
-        };
-        table.push(vec![
-            Cell::text(found.name.clone()),
-            Cell::text(found.shaded_by.join(", ")),
-            Cell::number(metrics.relative_rms, 3),
-            Cell::number(metrics.flip, 3),
-            Cell::number(metrics.max, 3),
-            Cell::text(format!("{}, {}, {}", at.x, at.y, at.channel)),
-            measured(found.pixel_ns.map(|ns| ns * pixels * 1e-6)),
-            measured(found.equal_error.map(|equal| equal.samples)),
-            measured(found.equal_error.map(|equal| equal.ratio)),
-        ]);
+/// What the pixels of a scene show.
+fn seen(scene: &Scene) -> String {
+    let size = format!("{} × {}", scene.view.width, scene.view.height);
+    let environment = |light: &crate::render::scene::Light| match &light.shape {
+        LightShape::Environment { map, turn_rad } => {
+            Some(format!("{map} (turned by {:.0}°)", turn_rad.to_degrees()))
+        }
+        _ => None,
+    };
+    match scene.view.projection {
+        Projection::Equirectangular => format!(
+            "Equirectangular map of view directions, {size}: azimuth 0 to 2π from left to right, polar \
+             angle 0 to π/2 from top to bottom"
+        ),
+        Projection::Camera(_) => {
+            let maps: Vec<String> = scene.lights.iter().filter_map(environment).collect();
+            format!("Frames of {size} from left to right under {}", maps.join(", "))
+        }
     }
-    table
 }
 
-fn monte_carlo(rendered: &RenderedScene) -> Block {
+/// Errors and times of the approximations, which is the cheapest, Monte Carlo, and what only scenes of
+/// the material show.
+pub fn scene_tables(rendered: &Rendered) -> Vec<Block> {
+    let notice = |level, text: String| Block::Notice { level, text: text.into() };
+    let mut blocks: Vec<Block> = vec![errors(rendered).into()];
+    if let Measured::NotMeasured(reason) = &rendered.times {
+        blocks.push(notice(NoticeLevel::NotMeasured, format!("Times: {reason}")));
+    }
+    if let Some(choice) = &rendered.choice {
+        let cheapest = |name: &String| format!("cheapest within the limits of the scene: {name}");
+        let text = choice.as_ref().map_or_else(Clone::clone, cheapest);
+        blocks.push(notice(NoticeLevel::Info, text));
+    }
+    blocks.extend(frontier(rendered).map(Block::Figure));
+    if rendered.monte_carlo.is_some() {
+        blocks.push(monte_carlo(rendered));
+    }
+    blocks.extend(rendered.details.blocks.iter().cloned());
+    blocks
+}
+
+fn errors(rendered: &Rendered) -> Table {
+    let table = Table::over(
+        "Approximations against the reference, over all pixels and channels.",
+        &rendered.approximations,
+    )
+    .column(Column::code("approximation"), |found| Cell::text(found.name.as_str()))
+    .column(Column::code("shaded by"), |found| Cell::text(found.method.words()))
+    .column(Column::number("relative RMS", "1"), |found| {
+        Cell::number(found.metrics.relative_rms, 4)
+    })
+    .column(Column::number("FLIP", "1"), |found| Cell::number(found.metrics.flip, 4))
+    .column(Column::number("mean error", "radiance"), |found| Cell::number(found.metrics.mean, 3))
+    .column(Column::number("max |error|", "radiance"), |found| Cell::number(found.metrics.max, 4))
+    .column(Column::text("where"), |found| {
+        let at = &found.metrics.at;
+        Cell::text(format!("{}, {} {}", at.x, at.y, at.channel))
+    });
+    let Measured::Value(times) = &rendered.times else { return table.table() };
+    let mut table =
+        table.column(Column::number("a frame", "ms"), |found| Cell::measured(&found.frame_ms, 3));
+    if times.full_ms.value().is_some() {
+        table = table.column(Column::number("in full, times slower", "1"), |found| {
+            Cell::measured(&found.full_over, 3)
+        });
+    }
+    if rendered.monte_carlo.is_some() {
+        table = table
+            .column(Column::number("samples at equal error", "1"), |found| {
+                Cell::measured(&found.equal_error.map(|equal| equal.samples), 3)
+            })
+            .column(Column::number("Monte Carlo, times slower", "1"), |found| {
+                Cell::measured(&found.equal_error.map(|equal| equal.ratio), 3)
+            });
+    }
+    table.table()
+}
+
+/// Error against time of those that were timed.
+fn frontier(rendered: &Rendered) -> Option<Figure> {
+    let timed: Vec<(&RenderedApproximation, f64)> = rendered
+        .approximations
+        .iter()
+        .filter_map(|found| Some((found, *found.frame_ms.value()?)))
+        .collect();
+    if timed.len() < 2 {
+        return None;
+    }
+    let plot = |title: &str, error: fn(&RenderedApproximation) -> f64| {
+        let points: Vec<(f64, f64)> = timed.iter().map(|(f, ms)| (*ms, error(f))).collect();
+        let mut plot = Plot::new(title, Axis::log("time of a frame", "ms"), Axis::log(title, "1"))
+            .series(Series::markers("approximations", points.iter().copied()))
+            .with_frontier();
+        for ((found, _), (ms, error)) in timed.iter().zip(points) {
+            plot = plot.annotate(ms, error, found.name.as_str());
+        }
+        plot
+    };
+    Some(Figure::grid(
+        format!("scene-{}-frontier", rendered.name.replace('_', "-")),
+        "Error against time; the staircase joins what no other beats in both.",
+        vec![
+            plot("relative RMS", |found| found.metrics.relative_rms),
+            plot("FLIP", |found| found.metrics.flip),
+        ],
+        2,
+    ))
+}
+
+fn monte_carlo(rendered: &Rendered) -> Block {
     let law = match &rendered.convergence {
         Measured::Value(law) => law,
         Measured::NotMeasured(reason) => {
@@ -120,32 +195,31 @@ fn monte_carlo(rendered: &RenderedScene) -> Block {
             return Block::Notice { level: NoticeLevel::NotMeasured, text };
         }
     };
-    let mut table = Table::new(
-        "Monte Carlo over the lights against the semi-analytic reference: its error at two numbers \
-         of samples, the exponent between them (−1/2 by theory), and a z-test of the larger run \
-         against its own standard error.",
-        vec![
-            Column::number("samples", "1"),
-            Column::number("RMS", "radiance"),
-            Column::number("samples", "1"),
-            Column::number("RMS", "radiance"),
-            Column::number("exponent", "1"),
-            Column::number("cells tested", "1"),
-            Column::number("worst z", "1"),
-            Column::number("p, corrected", "1"),
-        ],
-    );
     let test = rendered.monte_carlo_metrics.as_ref().and_then(|metrics| metrics.z_test.as_ref());
     let tested = |value: Option<f64>| Cell::number_or(value, 3, "no standard error");
-    table.push(vec![
-        Cell::count(law.samples[0] as usize),
-        Cell::number(law.rms[0], 3),
-        Cell::count(law.samples[1] as usize),
-        Cell::number(law.rms[1], 3),
-        Cell::number(law.exponent, 3),
-        test.map_or_else(|| tested(None), |test| Cell::count(test.cells)),
-        tested(test.map(|test| test.worst_z)),
-        tested(test.map(|test| test.p)),
-    ]);
-    table.into()
+    Table::of_rows(
+        "Monte Carlo against the reference: its error at two numbers of samples, the exponent between \
+         them (−1/2 by theory), and a z-test of the larger run against its own standard error.",
+        [
+            ("samples", "1"),
+            ("RMS", "radiance"),
+            ("samples", "1"),
+            ("RMS", "radiance"),
+            ("exponent", "1"),
+            ("cells tested", "1"),
+            ("worst z", "1"),
+            ("p, corrected", "1"),
+        ],
+        [vec![
+            Cell::count(law.samples[0] as usize),
+            Cell::number(law.rms[0], 4),
+            Cell::count(law.samples[1] as usize),
+            Cell::number(law.rms[1], 4),
+            Cell::number(law.exponent, 3),
+            test.map_or_else(|| tested(None), |test| Cell::count(test.cells)),
+            tested(test.map(|test| test.worst_z)),
+            tested(test.map(|test| test.p)),
+        ]],
+    )
+    .into()
 }

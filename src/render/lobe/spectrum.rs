@@ -34,8 +34,8 @@ use std::f64::consts::PI;
 
 use crate::measured::spectra::Spectra;
 
-use super::error::RenderError;
-use super::scene::{Scratch, Spectrum};
+use crate::render::RenderError;
+use crate::render::scene::{Scratch, Spectrum};
 
 /// One wavelength of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,8 +96,7 @@ pub fn waves(
 mod tests {
     use super::*;
 
-    const SCRATCH: Scratch =
-        Scratch { width_um: 2.0, depth_um: 0.15, coherence_radius_um: 60.0, direction_deg: 0.0 };
+    const SCRATCH: Scratch = Scratch { width_um: 2.0, depth_um: 0.15, coherence_radius_um: 60.0 };
 
     #[test]
     fn a_quarter_wave_deep_scratch_is_brightest() {

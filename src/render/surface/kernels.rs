@@ -1,4 +1,4 @@
-//! The table of a scene and what is made of it before anything is rendered.
+//! A diffraction table and what is made of it before anything is rendered.
 
 use crate::effects::diffraction;
 use crate::factor::{
@@ -8,10 +8,10 @@ use crate::factor::{
 use crate::measured::environment::Environment;
 use crate::measured::spectra::Spectra;
 use crate::render::RenderError;
+use crate::render::scene::{Factors, TableSource};
 use crate::render::sphere_map::{AngularKernel, Taps};
 use crate::table::Grid;
 
-use super::scene::{Factors, SurfaceScene, TableSource};
 use super::sums::{line_taps, table_taps};
 
 /// Share of |S| that sums over a reconstructed table leave out.
@@ -21,38 +21,39 @@ const LINE_HALF_WIDTH: f64 = 4.0;
 
 /// A diffraction table with its kernels.
 #[derive(Debug, Clone)]
-pub struct Material {
+pub struct DiffractionKernels {
     /// S_d over h_x and h_y, channels R, G, B.
     pub table: Grid,
     /// Directions along which it is factorised.
     pub alignment: Alignment,
     /// It over the angles of the passes.
-    pub kernel: AngularKernel,
+    pub angular: AngularKernel,
     decomposition: Decomposition,
     seen: Vec<Environment>,
 }
 
-impl Material {
-    /// Reads or simulates the table of `scene`; `seen` are the environments for factors of least
-    /// error after convolution.
+impl DiffractionKernels {
+    /// Reads or simulates a table and, with `align`, straightens it; `seen` are the environments for
+    /// factors of least error after convolution.
     ///
     /// # Errors
     /// [`RenderError`]: a table that does not load or has other axes or channels, settings that the
     /// simulator refuses, or one that cannot be factorised.
     pub fn new(
-        scene: &SurfaceScene,
+        source: &TableSource,
+        align: bool,
         spectra: &Spectra,
         seen: Vec<Environment>,
     ) -> Result<Self, RenderError> {
-        let table = table(&scene.table, spectra)?;
-        let alignment = if scene.convolution.align {
+        let table = table(source, spectra)?;
+        let alignment = if align {
             main_directions(&table, &SearchOptions::default())?.alignment
         } else {
             Alignment::identity()
         };
-        let kernel = AngularKernel::new(&table, &alignment);
-        let decomposition = Decomposition::of_aligned(&kernel.grid, alignment)?;
-        Ok(Self { table, alignment, kernel, decomposition, seen })
+        let angular = AngularKernel::new(&table, &alignment);
+        let decomposition = Decomposition::of_aligned(&angular.grid, alignment)?;
+        Ok(Self { table, alignment, angular, decomposition, seen })
     }
 
     /// Factors of the kernel.
@@ -63,7 +64,7 @@ impl Material {
         if factors == Factors::Svd {
             return Ok(self.decomposition.low_rank(rank)?);
         }
-        let grid = &self.kernel.grid;
+        let grid = &self.angular.grid;
         let options = NormOptions { alignment: self.alignment, ..NormOptions::default() };
         let norm = ConvolutionNorm::from_environments(&self.seen, grid.x(), grid.y(), &options)?;
         let fitted = convolved(grid, self.alignment, rank, &norm, &ConvolvedOptions::default())?;
@@ -76,10 +77,10 @@ impl Material {
     /// As [`directional`].
     pub fn blurs(&self) -> Result<Taps, RenderError> {
         let axes = [[1.0, 0.0], [0.0, 1.0]];
-        let width = LINE_HALF_WIDTH * self.kernel.grid.x().step().abs();
-        let lines = directional(&self.kernel.grid, &axes, width)?;
+        let width = LINE_HALF_WIDTH * self.angular.grid.x().step().abs();
+        let lines = directional(&self.angular.grid, &axes, width)?;
         let mut taps = Taps::default();
-        for (kernel, direction) in lines.kernels.iter().zip(self.kernel.directions) {
+        for (kernel, direction) in lines.kernels.iter().zip(self.angular.directions) {
             let step = kernel.axis.step().abs();
             for at in 0..kernel.axis.count {
                 let (sin, cos) = kernel.axis.centre(at).sin_cos();

@@ -2,33 +2,24 @@
 
 use rayon::prelude::*;
 
+use super::illumination::Illumination;
 use crate::effects::area_light;
+use crate::render::RenderError;
+use crate::render::shading::Columns;
 
-use super::error::RenderError;
-use super::illumination::{Illumination, directions};
-use super::image::Image;
-use super::scene::{REFERENCE, Scene};
-use super::tiles::{self, Event};
-
-/// Renders; the pixels of a tile are shared out among the threads.
+/// Columns R, G, B towards the directions of view in two columns; shared out among the threads.
 ///
 /// # Errors
-/// [`RenderError::Interrupted`] with what is finished, if the reference has no value at a pixel.
-pub(super) fn image(
-    scene: &Scene,
-    lit: &Illumination,
-    watch: &mut dyn FnMut(Event<'_>),
-) -> Result<Image, RenderError> {
-    tiles::image(REFERENCE, &scene.view, &["R", "G", "B"], watch, |pixels| {
-        let [along, across] = directions(&scene.view, scene.scratch.direction_deg, pixels);
-        let colours: Vec<[f64; 3]> = along
-            .par_iter()
-            .zip(&across)
-            .map(|(x, y)| radiance(lit, [f64::from(*x), f64::from(*y)]))
-            .collect::<Result<_, _>>()?;
-        let channel = |at: usize| colours.iter().map(|rgb| rgb[at] as f32).collect();
-        Ok((0..3).map(channel).collect())
-    })
+/// As [`radiance`].
+pub(super) fn colours(lit: &Illumination, views: &[Vec<f32>]) -> Result<Columns, RenderError> {
+    let [along, across] = views else { return Ok(Vec::new()) };
+    let colours: Vec<[f64; 3]> = along
+        .par_iter()
+        .zip(across)
+        .map(|(x, y)| radiance(lit, [f64::from(*x), f64::from(*y)]))
+        .collect::<Result<_, _>>()?;
+    let channel = |at: usize| colours.iter().map(|rgb| rgb[at] as f32).collect();
+    Ok((0..3).map(channel).collect())
 }
 
 /// Radiance in R, G, B towards a view direction in the frame of the scratch.
