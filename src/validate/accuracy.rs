@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::effect::{Candidate, NoValue, Reference, Yardstick};
 #[cfg(doc)]
-use crate::effect::{Candidate, Region};
+use crate::effect::Region;
 use crate::fit::outcome::Residuals;
 use crate::form::{Form, Input};
 use crate::gpu::{Device, Kernel};
