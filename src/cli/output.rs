@@ -7,7 +7,7 @@ use serde::Serialize;
 
 pub(super) use crate::document::number as significant;
 use crate::document::text::{self, Layout};
-use crate::document::{Cell, Column, Inline, Section, Table};
+use crate::document::{Cell, Inline, PrintedColumn, PrintedTable, Section};
 
 /// Where results and notes go.
 #[derive(Debug, Clone, Copy)]
@@ -85,10 +85,10 @@ pub(super) fn line(text: impl Into<Inline>) -> Vec<Section> {
 
 /// A table of words as text, for what is printed beside lines of its own.
 pub(super) fn table<H: AsRef<str>>(header: &[H], rows: Vec<Vec<String>>) -> String {
-    let columns = header.iter().map(|title| Column::text(title.as_ref())).collect();
+    let columns = header.iter().map(|title| PrintedColumn::text(title.as_ref())).collect();
     let rows = rows.into_iter().map(|row| row.into_iter().map(Cell::text).collect());
     let output = Output::new(false, false, ColorChoice::Never);
-    text::table(&Table::new("", columns).with_rows(rows), output.layout)
+    text::table(&PrintedTable::new("", columns).with_rows(rows), output.layout)
 }
 
 /// Writes to stdout. A reader that has gone away is no error: the run goes on and ends as it would.

@@ -34,7 +34,7 @@ impl Backend<'_> {
 /// Kernels made ready, whose colours add up.
 pub(super) struct Painter<'k, 'd> {
     kernels: &'k [Kernel],
-    compiled: Option<Vec<gpu::Kernel<'d>>>,
+    compiled: Option<Vec<gpu::DeviceKernel<'d>>>,
 }
 
 impl<'k, 'd> Painter<'k, 'd> {

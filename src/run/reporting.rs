@@ -9,7 +9,8 @@ use crate::render::surface::render_surface;
 use crate::render::{AnyScene, Backend, Resources, render_scene};
 use crate::report::html::{Written, write_site};
 use crate::report::pages::{
-    Evidence, SceneEvidence, SurfaceEvidence, effect_page, index_page, scenes_page, surfaces_page,
+    EffectEvidence, SceneEvidence, SurfaceEvidence, effect_page, index_page, scenes_page,
+    surfaces_page,
 };
 
 impl Run {
@@ -43,10 +44,10 @@ impl Run {
         let registry = self.project.registry();
         let forms = studied.iter().map(|studied| registry.forms_of(studied.effect).collect());
         let forms: Vec<Vec<_>> = forms.collect();
-        let evidence: Vec<Evidence<'_>> = studied
+        let evidence: Vec<EffectEvidence<'_>> = studied
             .iter()
             .zip(of.iter().zip(&forms))
-            .map(|(studied, (gates, forms))| Evidence {
+            .map(|(studied, (gates, forms))| EffectEvidence {
                 effect: studied.effect,
                 forms,
                 study: &studied.study,

@@ -1,7 +1,9 @@
 //! Scenes: reference and approximations as pictures, how they differ, what they cost.
 
 use super::gates;
-use crate::document::{Block, Cell, Column, Inline, NoticeLevel, Page, Picture, Section, Table};
+use crate::document::{
+    Block, Cell, Inline, NoticeLevel, Page, Picture, PrintedColumn, PrintedTable, Section,
+};
 use crate::effect::Finding;
 use crate::gate::Judgement;
 use crate::numeric::measured::Measured;
@@ -72,23 +74,23 @@ fn section(evidence: &SceneEvidence) -> Result<Section, RenderError> {
     Ok(section.block(monte_carlo(rendered)))
 }
 
-fn errors(evidence: &SceneEvidence) -> Table {
+fn errors(evidence: &SceneEvidence) -> PrintedTable {
     let SceneEvidence { scene, rendered } = evidence;
     let pixels = (scene.view.width * scene.view.height) as f64;
-    let mut table = Table::new(
+    let mut table = PrintedTable::new(
         "Approximations against the reference, over all pixels and channels. The time is that of the \
          kernels on the device for the whole image. Monte Carlo at equal error: its time over that \
          of the approximation when its RMS error is the same.",
         vec![
-            Column::code("approximation"),
-            Column::code("shaded by"),
-            Column::number("relative RMS", "1"),
-            Column::number("FLIP", "1"),
-            Column::number("max |error|", "radiance"),
-            Column::text("where (x, y, channel)"),
-            Column::number("time", "ms"),
-            Column::number("samples at equal error", "1"),
-            Column::number("Monte Carlo, times slower", "1"),
+            PrintedColumn::code("approximation"),
+            PrintedColumn::code("shaded by"),
+            PrintedColumn::number("relative RMS", "1"),
+            PrintedColumn::number("FLIP", "1"),
+            PrintedColumn::number("max |error|", "radiance"),
+            PrintedColumn::text("where (x, y, channel)"),
+            PrintedColumn::number("time", "ms"),
+            PrintedColumn::number("samples at equal error", "1"),
+            PrintedColumn::number("Monte Carlo, times slower", "1"),
         ],
     );
     for found in &rendered.approximations {
@@ -120,19 +122,19 @@ fn monte_carlo(rendered: &RenderedScene) -> Block {
             return Block::Notice { level: NoticeLevel::NotMeasured, text };
         }
     };
-    let mut table = Table::new(
+    let mut table = PrintedTable::new(
         "Monte Carlo over the lights against the semi-analytic reference: its error at two numbers \
          of samples, the exponent between them (−1/2 by theory), and a z-test of the larger run \
          against its own standard error.",
         vec![
-            Column::number("samples", "1"),
-            Column::number("RMS", "radiance"),
-            Column::number("samples", "1"),
-            Column::number("RMS", "radiance"),
-            Column::number("exponent", "1"),
-            Column::number("cells tested", "1"),
-            Column::number("worst z", "1"),
-            Column::number("p, corrected", "1"),
+            PrintedColumn::number("samples", "1"),
+            PrintedColumn::number("RMS", "radiance"),
+            PrintedColumn::number("samples", "1"),
+            PrintedColumn::number("RMS", "radiance"),
+            PrintedColumn::number("exponent", "1"),
+            PrintedColumn::number("cells tested", "1"),
+            PrintedColumn::number("worst z", "1"),
+            PrintedColumn::number("p, corrected", "1"),
         ],
     );
     let test = rendered.monte_carlo_metrics.as_ref().and_then(|metrics| metrics.z_test.as_ref());

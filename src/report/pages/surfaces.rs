@@ -2,9 +2,9 @@
 //! n = ω_o = r_v costs.
 
 use super::gates;
-use crate::document::plot::{Axis, Plot, Series};
+use crate::document::plot::{Plot, PlotAxis, Series};
 use crate::document::{
-    Block, Cell, Column, Figure, Inline, NoticeLevel, Page, Picture, Section, Table,
+    Block, Cell, Figure, Inline, NoticeLevel, Page, Picture, PrintedColumn, PrintedTable, Section,
 };
 use crate::effect::Finding;
 use crate::gate::Judgement;
@@ -105,23 +105,23 @@ fn measured(value: &Measured<f64>) -> Cell {
     }
 }
 
-fn errors(rendered: &RenderedSurface) -> Table {
+fn errors(rendered: &RenderedSurface) -> PrintedTable {
     let full = match &rendered.times {
         Measured::Value(times) => times.full_ms.clone(),
         Measured::NotMeasured(reason) => Measured::NotMeasured(reason.clone()),
     };
-    let mut table = Table::new(
+    let mut table = PrintedTable::new(
         "Approximations against the reference, over all pixels and channels. The time is that of \
          the convolution of one frame on the device; the last column is the time of the sum over \
          the whole table over it, from the same run.",
         vec![
-            Column::code("approximation"),
-            Column::text("how"),
-            Column::number("relative RMS", "1"),
-            Column::number("FLIP", "1"),
-            Column::number("mean error", "radiance"),
-            Column::number("time", "ms"),
-            Column::number("whole table, times slower", "1"),
+            PrintedColumn::code("approximation"),
+            PrintedColumn::text("how"),
+            PrintedColumn::number("relative RMS", "1"),
+            PrintedColumn::number("FLIP", "1"),
+            PrintedColumn::number("mean error", "radiance"),
+            PrintedColumn::number("time", "ms"),
+            PrintedColumn::number("whole table, times slower", "1"),
         ],
     );
     for found in &rendered.approximations {
@@ -165,10 +165,13 @@ fn frontier(scene: &SurfaceScene, rendered: &RenderedSurface) -> Option<Figure> 
     }
     let plot = |title: &str, error: fn(&SurfaceApproximation) -> f64| {
         let points: Vec<(f64, f64)> = timed.iter().map(|(f, ms)| (*ms, error(f))).collect();
-        let mut plot =
-            Plot::new(title, Axis::log("time of the convolution", "ms"), Axis::log(title, "1"))
-                .series(Series::markers("approximations", points.iter().copied()))
-                .with_frontier();
+        let mut plot = Plot::new(
+            title,
+            PlotAxis::log("time of the convolution", "ms"),
+            PlotAxis::log(title, "1"),
+        )
+        .series(Series::markers("approximations", points.iter().copied()))
+        .with_frontier();
         for ((found, _), (ms, error)) in timed.iter().zip(points) {
             plot = plot.annotate(ms, error, found.name.as_str());
         }
@@ -185,14 +188,14 @@ fn frontier(scene: &SurfaceScene, rendered: &RenderedSurface) -> Option<Figure> 
     ))
 }
 
-fn angles(rendered: &RenderedSurface) -> Table {
-    let mut table = Table::new(
+fn angles(rendered: &RenderedSurface) -> PrintedTable {
+    let mut table = PrintedTable::new(
         "What n = ω_o = r_v costs in the first frame: the convolution with the whole table against \
          eq. 3 at 24 azimuths per angle of incidence, on a plane.",
         vec![
-            Column::number("incidence", "°"),
-            Column::number("relative RMS", "1"),
-            Column::number("mean over that of eq. 3", "1"),
+            PrintedColumn::number("incidence", "°"),
+            PrintedColumn::number("relative RMS", "1"),
+            PrintedColumn::number("mean over that of eq. 3", "1"),
         ],
     );
     for line in &rendered.by_angle {
