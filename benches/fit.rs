@@ -51,7 +51,7 @@ fn main() {
     });
     println!(
         "striae  {ours:.3} ms  {:?}  {:?}, {} evaluations, {}",
-        solution.constants, solution.ending, solution.evaluations, solution.solver
+        solution.constants, solution.termination, solution.evaluations, solution.solver
     );
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers/si_fit_scipy.py");
     let peer = Command::new("python3").arg(script).args(START.map(|s| s.to_string())).output();

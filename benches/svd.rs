@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use striae::factor::Decomposition;
-use striae::table::{Axis, Channel, Grid};
+use striae::table::{Axis, Grid, GridChannel};
 
 const SIDE: usize = 512;
 const RUNS: usize = 9;
@@ -31,7 +31,7 @@ fn table() -> Grid {
                 values.push(value as f32);
             }
         }
-        channels.push(Channel { name: name.into(), unit: "1".into(), values });
+        channels.push(GridChannel { name: name.into(), unit: "1".into(), values });
     }
     Grid { axes: vec![axis("h_x"), axis("h_y")], channels, origin: "lattice with noise".into() }
 }

@@ -18,7 +18,7 @@ use std::error::Error;
 use std::path::Path;
 
 use striae::document::text::{self, Layout};
-use striae::document::{Cell, Column, Page, Section, Table};
+use striae::document::{Cell, Page, PrintedColumn, PrintedTable, Section};
 use striae::effect::claim::REPORT;
 use striae::effect::{
     Candidates, Claim, ClaimError, DomainError, Effect, Evaluate, FormText, FormValues, Found, Law,
@@ -187,10 +187,10 @@ fn exhibits(candidates: &Candidates) -> Result<Vec<Section>, ClaimError> {
         let of = |name| Ok::<_, ClaimError>(rms(&errors(candidates, name, &line)?));
         rows.push((alpha, of("masking/schlick")?, of("masking/refit")?));
     }
-    let table = Table::over("RMS error over 200 cosines.", rows)
-        .column(Column::number("alpha", "1"), |(alpha, ..)| Cell::number(*alpha, 3))
-        .column(Column::number("k = alpha/2", "1"), |(_, half, _)| Cell::number(*half, 3))
-        .column(Column::number("refitted", "1"), |(.., refit)| Cell::number(*refit, 3));
+    let table = PrintedTable::over("RMS error over 200 cosines.", rows)
+        .column(PrintedColumn::number("alpha", "1"), |(alpha, ..)| Cell::number(*alpha, 3))
+        .column(PrintedColumn::number("k = alpha/2", "1"), |(_, half, _)| Cell::number(*half, 3))
+        .column(PrintedColumn::number("refitted", "1"), |(.., refit)| Cell::number(*refit, 3));
     Ok(vec![Section::new("Error by roughness").block(table)])
 }
 

@@ -8,10 +8,10 @@ use assert_cmd::Command;
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
 use striae::effects::diffraction::{
-    Channels, Detrend, FarField, Grating, Illuminant, Missing, Patch, PatternPlacing, Preparation,
-    Profile, TableShape, Transform, USUAL, Window, fundamental, grating, of_pattern, of_surface,
-    orders, prepared, rectangular_order_power, settings, simulated_heights, simulated_table,
-    sinusoid_amplitude, sinusoid_order_power,
+    Channels, Detrend, FarField, FarFieldTransform, Grating, IlluminantChoice, Missing, Patch,
+    PatternPlacing, Preparation, Profile, TableShape, USUAL, Window, fundamental, grating,
+    of_pattern, of_surface, orders, prepared, rectangular_order_power, settings, simulated_heights,
+    simulated_table, sinusoid_amplitude, sinusoid_order_power,
 };
 use striae::measured::height_map::HeightMap;
 use striae::measured::pattern::Pattern;
@@ -34,7 +34,7 @@ fn height_map(nx: usize, ny: usize, height: impl Fn(usize, usize) -> f64) -> Hei
 
 fn field(map: &HeightMap, preparation: Preparation, padding: usize) -> FarField {
     let surface = prepared(map, preparation).expect("a surface");
-    let transform = Transform::new(&surface, padding).expect("a transform");
+    let transform = FarFieldTransform::new(&surface, padding).expect("a transform");
     transform.far_field(&surface, GREEN_NM, 2.0)
 }
 
@@ -43,7 +43,7 @@ fn rgb(size: usize, extent: f64) -> TableShape {
         size: [size, size],
         extent,
         wavelengths_nm: (0..=16).map(|i| 380.0 + 25.0 * f64::from(i)).collect(),
-        channels: Channels::Rgb(Illuminant::D65),
+        channels: Channels::Rgb(IlluminantChoice::D65),
     }
 }
 
@@ -112,7 +112,7 @@ fn the_power_of_a_table_is_what_it_covers() {
 fn a_mirror_is_white_under_every_light_and_sits_in_the_middle() {
     let flat = height_map(64, 64, |_, _| 12.0);
     let surface = prepared(&flat, USUAL).expect("a surface");
-    for light in [Illuminant::D65, Illuminant::A, Illuminant::E] {
+    for light in [IlluminantChoice::D65, IlluminantChoice::A, IlluminantChoice::E] {
         let shape = TableShape { channels: Channels::Rgb(light), ..rgb(33, 1.0) };
         let table = of_surface(&surface, &shape, 1, 2.0, &spectra()).expect("a table");
         for channel in power(&table.grid) {
@@ -130,15 +130,15 @@ fn weights_of_every_light_sum_to_one_and_those_of_daylight_are_the_reader_s() {
     let nodes: Vec<f64> = (0..=40).map(|i| 380.0 + 10.0 * f64::from(i)).collect();
     let spectra = spectra();
     let plain = spectra.linear_srgb_weights(&nodes).expect("weights");
-    assert_eq!(Illuminant::D65.srgb_weights(&nodes, &spectra).expect("weights"), plain);
+    assert_eq!(IlluminantChoice::D65.srgb_weights(&nodes, &spectra).expect("weights"), plain);
     let nm: Vec<f64> = (0..=80).map(|i| 380.0 + 5.0 * f64::from(i)).collect();
     let power = nm.iter().map(|w| spectra.d65().power(*w).unwrap_or(0.0)).collect();
     let columns = vec![Column::new("wavelength", "nm", nm), Column::new("power", "1", power)];
     let spectrum = spectra::Illuminant::of(&Table { columns, origin: "test".into() });
     let spectrum = spectrum.expect("increasing");
     // Daylight as a file, cut at 780 nm: the same weights but for what is cut.
-    let tabulated = Illuminant::Tabulated { spectrum, origin: "test".into() };
-    for light in [Illuminant::A, Illuminant::E, tabulated.clone()] {
+    let tabulated = IlluminantChoice::Tabulated { spectrum, origin: "test".into() };
+    for light in [IlluminantChoice::A, IlluminantChoice::E, tabulated.clone()] {
         let weights = light.srgb_weights(&nodes, &spectra).expect("weights");
         for channel in 0..3 {
             let sum: f64 = weights.weights.iter().map(|w| w[channel]).sum();

@@ -8,9 +8,11 @@ use std::path::{Path, PathBuf};
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use report_sample::{pages, provenance};
-use striae::document::plot::{Axis, Plot, Series};
+use striae::document::plot::{Plot, PlotAxis, Series};
 use striae::document::text::Layout;
-use striae::document::{Block, Cell, Column, Figure, Inline, Page, Section, Span, Table};
+use striae::document::{
+    Block, Cell, Figure, Inline, Page, PrintedColumn, PrintedTable, Section, Span,
+};
 use striae::document::{json, text};
 use striae::report::html::{SiteError, write_site};
 use striae::report::plot::{Drawing, Rect, draw};
@@ -155,21 +157,22 @@ fn labels_cover_neither_each_other_nor_leave_the_plot() -> Result {
     Ok(())
 }
 
-fn plotted(x: Axis, y: Axis, points: Vec<(f64, f64)>) -> Result<Drawing> {
+fn plotted(x: PlotAxis, y: PlotAxis, points: Vec<(f64, f64)>) -> Result<Drawing> {
     Ok(draw(&Figure::new("f", "c", Plot::new("t", x, y).series(Series::line("s", points))))?)
 }
 
 #[test]
 fn points_that_cannot_be_drawn_are_counted() -> Result {
     let points = vec![(1.0, 1e-3), (2.0, f64::NAN), (3.0, 0.0), (4.0, -1.0), (5.0, 1e-6)];
-    let drawing = plotted(Axis::linear("x", "1"), Axis::log("y", "1"), points)?;
+    let drawing = plotted(PlotAxis::linear("x", "1"), PlotAxis::log("y", "1"), points)?;
     assert_eq!(
         drawing.notes,
         ["Points of “s” not drawn: 1 not finite, 2 not positive on a logarithmic axis."]
     );
     assert!(!drawing.svg.contains("NaN"));
     let points = vec![(0.0, 0.0), (1.0, 1.0), (2.0, 5.0)];
-    let drawing = plotted(Axis::linear("x", "1"), Axis::linear("y", "1").range(0.0, 2.0), points)?;
+    let drawing =
+        plotted(PlotAxis::linear("x", "1"), PlotAxis::linear("y", "1").range(0.0, 2.0), points)?;
     assert_eq!(drawing.notes, ["Points of “s” not drawn: 1 outside the axes."]);
     Ok(())
 }
@@ -185,15 +188,15 @@ fn hopeless_data_still_gives_a_figure() -> Result {
         vec![(5e-324, 5e-324), (1e-300, 1e140)],
     ];
     let scales = [
-        Axis::linear,
-        Axis::log,
-        |l, u| Axis::symlog(l, u, 1e-6),
-        |l, u| Axis::symlog(l, u, f64::NAN),
+        PlotAxis::linear,
+        PlotAxis::log,
+        |l, u| PlotAxis::symlog(l, u, 1e-6),
+        |l, u| PlotAxis::symlog(l, u, f64::NAN),
     ];
     for points in &cases {
         for scale in scales {
             for range in [None, Some([2.0, 1.0]), Some([f64::NAN, 1.0]), Some([-1.0, 1e300])] {
-                let axis = Axis { range, ..scale("x", "1") };
+                let axis = PlotAxis { range, ..scale("x", "1") };
                 let drawing = plotted(axis.clone(), axis, points.clone())?;
                 elements(&drawing.svg)?;
                 assert!(!drawing.svg.contains("NaN") && !drawing.svg.contains("inf"));
@@ -210,8 +213,8 @@ fn a_long_series_is_thinned_and_keeps_its_peak() -> Result {
         (x, if i == 123_456 { 7.0 } else { (x * 40.0).sin() })
     };
     let drawing = plotted(
-        Axis::linear("x", "1"),
-        Axis::linear("y", "1").range(-1.0, 7.0),
+        PlotAxis::linear("x", "1"),
+        PlotAxis::linear("y", "1").range(-1.0, 7.0),
         (0..200_000).map(wave).collect(),
     )?;
     assert!(drawing.svg.len() < 150_000, "{} bytes", drawing.svg.len());
@@ -335,9 +338,9 @@ fn unusable_names_and_folders_are_refused() -> Result {
 #[test]
 fn text_from_outside_is_escaped() -> Result {
     let nasty = "<b>&\"'</b>\u{1}]]>";
-    let mut table = Table::new(nasty, vec![Column::text(nasty)]);
+    let mut table = PrintedTable::new(nasty, vec![PrintedColumn::text(nasty)]);
     table.push(vec![Cell::link(nasty, "javascript:alert(1)")]);
-    let plot = Plot::new(nasty, Axis::linear(nasty, "<1>"), Axis::linear("y", "1"))
+    let plot = Plot::new(nasty, PlotAxis::linear(nasty, "<1>"), PlotAxis::linear("y", "1"))
         .series(Series::markers(nasty, [(0.0, 1.0)]))
         .annotate(0.0, 1.0, nasty);
     let page = Page::new("p", nasty, nasty).section(
@@ -356,9 +359,9 @@ fn text_from_outside_is_escaped() -> Result {
 
 #[test]
 fn short_rows_show_what_they_lack_and_empty_tables_say_so() -> Result {
-    let columns = vec![Column::text("a"), Column::number("b", "1").grouped("g")];
-    let empty = Table::new("empty", columns.clone());
-    let mut short = Table::new("short", columns);
+    let columns = vec![PrintedColumn::text("a"), PrintedColumn::number("b", "1").grouped("g")];
+    let empty = PrintedTable::new("empty", columns.clone());
+    let mut short = PrintedTable::new("short", columns);
     short.push(vec![Cell::text("x")]);
     assert_eq!(short.rows()[0][1], Cell::missing("no value given"));
     assert!(text::table(&short, Layout::default()).contains("g: b [1]"));

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use striae::effect::DomainError;
 use striae::effects::scratch_response::{
-    Coherence, Directions, Scratch, along_factor, sinc_pi, svbrdf,
+    Coherence, Directions, StraightScratch, along_factor, sinc_pi, svbrdf,
 };
 use striae::numeric::quadrature::GaussLegendre;
 use striae::registry::Registry;
@@ -142,7 +142,7 @@ fn svbrdf_is_the_transform_of_a_phase_surface() {
     let light = Coherence { wavelength_um: 0.55, sigma_um: 10.0 };
     let mut errors = Vec::new();
     for width_um in [0.5, 0.25] {
-        let scratch = Scratch {
+        let scratch = StraightScratch {
             position_um: [0.0, 3.0],
             direction_rad: 0.0,
             begin_um: -4.0,

@@ -12,7 +12,7 @@ use striae::render::geometry::{Frame, Hit};
 use striae::render::sphere_map::{AngularKernel, AzimuthalOperator, SphereMap, convolved};
 use striae::render::surface::{integrals, surface_sums, table_taps};
 use striae::render::{self, Backend, PreparedScene, Scene};
-use striae::table::{Axis, Channel, Grid};
+use striae::table::{Axis, Grid, GridChannel};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -25,7 +25,7 @@ fn table(count: usize) -> Grid {
         let (dx, dy) = (at[0] - centre[0], at[1] - centre[1]);
         (-(dx * dx + dy * dy) / (width * width)).exp()
     };
-    let channel = |(name, shift): (&str, f64)| Channel {
+    let channel = |(name, shift): (&str, f64)| GridChannel {
         name: name.into(),
         unit: "sr^-1".into(),
         values: (0..count * count)

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::compare::Metric;
-use crate::document::{Cell, Column, Section, Table, number};
+use crate::document::{Cell, PrintedColumn, PrintedTable, Section, number};
 use crate::render::compare::columns::ColumnDifference;
 use crate::render::compare::flip::FlipMap;
 use crate::render::compare::metrics::{Difference, ImageDifference};
@@ -177,11 +177,14 @@ impl Comparison<'_> {
                 difference.channels.iter().map(channel).chain([all]).collect()
             }
         };
-        let mut columns = vec![Column::text("")];
-        columns.extend(["mean", "reference", "rms", "relative rms", "max"].map(Column::figures));
-        columns.push(Column::text("at"));
+        let mut columns = vec![PrintedColumn::text("")];
+        columns.extend(
+            ["mean", "reference", "rms", "relative rms", "max"].map(PrintedColumn::figures),
+        );
+        columns.push(PrintedColumn::text("at"));
         let caption = format!("{} against {}", self.a.display(), self.b.display());
-        let mut section = Section::default().block(Table::new(caption, columns).with_rows(rows));
+        let mut section =
+            Section::default().block(PrintedTable::new(caption, columns).with_rows(rows));
         if let Compared::Images(images) = self.compared {
             section = section.paragraph(match &images.flip {
                 Ok(flip) => format!("FLIP {} ({})", number(flip.value, 5), flip.conditions),

@@ -220,7 +220,7 @@ fn methods(arguments: &Arguments, table: &Grid) -> anyhow::Result<(Vec<Method>, 
     } else {
         methods.push(Method::Convolution);
     }
-    let negative = |c: &crate::table::Channel| c.values.iter().any(|v| *v < 0.0);
+    let negative = |c: &crate::table::GridChannel| c.values.iter().any(|v| *v < 0.0);
     match table.channels.iter().find(|c| negative(c)) {
         Some(channel) => left_out.push(format!(
             "nonnegative: not measured, channel {:?} has negative values",
@@ -291,7 +291,7 @@ impl Work<'_> {
         };
         let channels = self.table.channels.iter().zip(errors).zip(seen);
         let row = |((channel, relative_error), after_convolution): (
-            (&crate::table::Channel, f64),
+            (&crate::table::GridChannel, f64),
             Option<f64>,
         )| Row {
             method: method.name(),

@@ -23,7 +23,7 @@ pub(super) fn picture(table: &Grid, path: &Path, exposure: Option<f64>) -> anyho
         if white > 0.0 { -f64::from(white).log2() } else { 0.0 }
     });
     let channel =
-        |c: &&crate::table::Channel| Channel { name: c.name.clone(), values: c.values.clone() };
+        |c: &&crate::table::GridChannel| Channel { name: c.name.clone(), values: c.values.clone() };
     let image = Image {
         width: table.x().count,
         height: table.y().count,

@@ -5,8 +5,8 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::document::{self, Cell, Column, Section, number};
-use crate::factor::{Directional, MainDirections, Spectrum};
+use crate::document::{self, Cell, PrintedColumn, Section, number};
+use crate::factor::{Directional, MainDirections, SingularSpectrum};
 use crate::table::{Grid, shortest_number};
 
 /// One method at one rank in one channel.
@@ -33,7 +33,7 @@ pub(super) struct Lines {
 /// Everything there is to say.
 pub(super) struct Factored<'a> {
     pub(super) table: &'a Grid,
-    pub(super) spectra: Vec<&'a Spectrum>,
+    pub(super) spectra: Vec<&'a SingularSpectrum>,
     pub(super) directions: Option<&'a MainDirections>,
     pub(super) aligned: bool,
     pub(super) rows: &'a [Row],
@@ -88,27 +88,27 @@ impl Factored<'_> {
     }
 
     /// A row per method and rank.
-    fn errors(&self) -> document::Table {
+    fn errors(&self) -> document::PrintedTable {
         let names = || self.table.channels.iter().map(|c| c.name.as_str()).enumerate();
         let seen = self.rows.iter().any(|row| row.after_convolution.is_some());
         let number = |row: Option<&Row>, of: fn(&Row) -> Option<f64>| {
             Cell::number_or(row.and_then(of), 4, "no environment")
         };
         // Rows of the channels of one method at one rank stand together.
-        document::Table::over("", self.rows.chunks(self.table.channels.len().max(1)))
-            .column(Column::code("method"), |rows| Cell::text(rows[0].method))
-            .column(Column::figures("rank"), |rows| Cell::count(rows[0].rank))
+        document::PrintedTable::over("", self.rows.chunks(self.table.channels.len().max(1)))
+            .column(PrintedColumn::code("method"), |rows| Cell::text(rows[0].method))
+            .column(PrintedColumn::figures("rank"), |rows| Cell::count(rows[0].rank))
             .columns(
                 names(),
-                |(_, name)| Column::figures(format!("error {name}")),
+                |(_, name)| PrintedColumn::figures(format!("error {name}")),
                 |rows, (at, _)| number(rows.get(*at), |row| Some(row.relative_error)),
             )
             .columns(
                 names().filter(|_| seen),
-                |(_, name)| Column::figures(format!("convolved {name}")),
+                |(_, name)| PrintedColumn::figures(format!("convolved {name}")),
                 |rows, (at, _)| number(rows.get(*at), |row| row.after_convolution),
             )
-            .column(Column::figures("ms"), |rows| Cell::number(rows[0].ms, 3))
+            .column(PrintedColumn::figures("ms"), |rows| Cell::number(rows[0].ms, 3))
             .table()
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::{Cell, Column, Section, Table, number};
+use crate::document::{Cell, PrintedColumn, PrintedTable, Section, number};
 use crate::fit::FitResult;
 use crate::fit::outcome::Outcome;
 use crate::report::pages::{constants, family_constants, status};
@@ -19,23 +19,23 @@ pub(super) fn summary(results: &[FitResult]) -> Section {
             _ => ((squares / points as f64).sqrt(), max),
         }
     };
-    let table = Table::over("", results)
-        .column(Column::code("fit"), |result| match result {
+    let table = PrintedTable::over("", results)
+        .column(PrintedColumn::code("fit"), |result| match result {
             FitResult::Single(outcome) => Cell::text(outcome.name.as_str()),
             FitResult::Family(family) => Cell::text(family.name.as_str()),
         })
-        .column(Column::verdict("status"), |result| match result {
+        .column(PrintedColumn::verdict("status"), |result| match result {
             FitResult::Single(outcome) => status(outcome),
             FitResult::Family(family) => Cell::text(endings(&family.members)),
         })
-        .column(Column::figures("free"), |result| {
+        .column(PrintedColumn::figures("free"), |result| {
             result
                 .outcomes()
                 .first()
                 .map_or_else(|| Cell::text(""), |of| Cell::count(of.free_count()))
         })
-        .column(Column::figures("rms (f32)"), |result| Cell::number(shipped(result).0, 4))
-        .column(Column::figures("max (f32)"), |result| Cell::number(shipped(result).1, 4));
+        .column(PrintedColumn::figures("rms (f32)"), |result| Cell::number(shipped(result).0, 4))
+        .column(PrintedColumn::figures("max (f32)"), |result| Cell::number(shipped(result).1, 4));
     Section::default().block(table)
 }
 

@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use super::Ending;
 use super::context::Context;
-use crate::document::{Cell, Column, Section, Table, number};
+use crate::document::{Cell, PrintedColumn, PrintedTable, Section, number};
 use crate::gate;
 use crate::registry::Registry;
 use crate::render::Scene;
@@ -50,9 +50,9 @@ struct Listing {
 impl Listing {
     fn section(&self) -> Section {
         let caption = format!("{} ({})", self.title, self.rows.len());
-        let table = Table::over(caption, &self.rows).columns(
+        let table = PrintedTable::over(caption, &self.rows).columns(
             self.header.iter().enumerate(),
-            |(_, title)| Column::text(**title),
+            |(_, title)| PrintedColumn::text(**title),
             |row, (at, _)| Cell::text(row[*at].as_str()),
         );
         Section::default().block(table)

@@ -109,11 +109,11 @@ fn extension(path: &Path) -> String {
 
 fn list_settings(simulator: &Simulator, context: &Context) -> anyhow::Result<Ending> {
     context.output.sections(&simulator.parameters, || {
-        let table = document::Table::over("", simulator.parameters)
-            .column(document::Column::text("setting"), |of| Cell::text(of.name))
-            .column(document::Column::text("unit"), |of| Cell::text(of.unit))
-            .column(document::Column::text("default"), |of| Cell::text(of.default))
-            .column(document::Column::text("description"), |of| Cell::text(of.description));
+        let table = document::PrintedTable::over("", simulator.parameters)
+            .column(document::PrintedColumn::text("setting"), |of| Cell::text(of.name))
+            .column(document::PrintedColumn::text("unit"), |of| Cell::text(of.unit))
+            .column(document::PrintedColumn::text("default"), |of| Cell::text(of.default))
+            .column(document::PrintedColumn::text("description"), |of| Cell::text(of.description));
         vec![Section::default().block(table)]
     })?;
     Ok(Ending::Done)

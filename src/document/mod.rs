@@ -46,7 +46,7 @@ use serde::{Serialize, Serializer};
 pub use cell::{Cell, Highlight, Value, Verdict, number};
 pub use inline::{Inline, Span};
 use plot::Plot;
-pub use table::{Align, Column, ColumnKind, Table, Tabled};
+pub use table::{Align, ColumnKind, PrintedColumn, PrintedTable, Tabled};
 
 /// One page: `<slug>.html`. The page with the slug `index` leads, and lists the others.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -160,7 +160,7 @@ pub enum Block {
     /// A bulleted list.
     List(Vec<Inline>),
     /// A table.
-    Table(Table),
+    Table(PrintedTable),
     /// One or more plots under one caption.
     Figure(Figure),
     /// An image.
@@ -188,8 +188,8 @@ pub enum Block {
     },
 }
 
-impl From<Table> for Block {
-    fn from(table: Table) -> Self {
+impl From<PrintedTable> for Block {
+    fn from(table: PrintedTable) -> Self {
         Self::Table(table)
     }
 }

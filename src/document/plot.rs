@@ -9,9 +9,9 @@ pub struct Plot {
     /// Shown above it.
     pub title: String,
     /// Horizontal axis.
-    pub x: Axis,
+    pub x: PlotAxis,
     /// Vertical axis.
-    pub y: Axis,
+    pub y: PlotAxis,
     /// What is drawn; the order decides colours, and later series lie on top.
     pub series: Vec<Series>,
     /// Labels at points, moved aside so that they do not overlap.
@@ -27,7 +27,7 @@ pub struct Plot {
 
 impl Plot {
     /// An empty plot.
-    pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
+    pub fn new(title: impl Into<String>, x: PlotAxis, y: PlotAxis) -> Self {
         Self {
             title: title.into(),
             x,
@@ -70,7 +70,7 @@ impl Plot {
 
 /// An axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Axis {
+pub struct PlotAxis {
     /// Quantity.
     pub label: String,
     /// Unit, `1` for a pure number.
@@ -83,7 +83,7 @@ pub struct Axis {
     pub range: Option<[f64; 2]>,
 }
 
-impl Axis {
+impl PlotAxis {
     fn with_scale(label: impl Into<String>, unit: impl Into<String>, scale: Scale) -> Self {
         Self { label: label.into(), unit: unit.into(), scale, range: None }
     }

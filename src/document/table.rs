@@ -7,27 +7,27 @@ use super::inline::Inline;
 
 /// A table. Every row has one cell per column; the first column heads its row.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Table {
+pub struct PrintedTable {
     /// What is tabulated, and over which points.
     pub caption: Inline,
     /// Columns, in order.
-    pub columns: Vec<Column>,
+    pub columns: Vec<PrintedColumn>,
     rows: Vec<Vec<Cell>>,
 }
 
-impl Table {
+impl PrintedTable {
     /// A table without rows.
-    pub fn new(caption: impl Into<Inline>, columns: Vec<Column>) -> Self {
+    pub fn new(caption: impl Into<Inline>, columns: Vec<PrintedColumn>) -> Self {
         Self { caption: caption.into(), columns, rows: Vec::new() }
     }
 
     /// A table with a row per record; [`Tabled::column`] says what is shown of each.
     ///
     /// ```
-    /// use striae::document::{Cell, Column, Table};
-    /// let table = Table::over("Squares.", [1.0, 2.0, 3.0])
-    ///     .column(Column::number("x", "1"), |x| Cell::number(*x, 2))
-    ///     .column(Column::number("x²", "1"), |x| Cell::number(x * x, 2))
+    /// use striae::document::{Cell, PrintedColumn, PrintedTable};
+    /// let table = PrintedTable::over("Squares.", [1.0, 2.0, 3.0])
+    ///     .column(PrintedColumn::number("x", "1"), |x| Cell::number(*x, 2))
+    ///     .column(PrintedColumn::number("x²", "1"), |x| Cell::number(x * x, 2))
     ///     .table();
     /// assert_eq!(table.rows().len(), 3);
     /// ```
@@ -51,8 +51,8 @@ impl Table {
         rows: impl IntoIterator<Item = Vec<Cell>>,
     ) -> Self {
         let columns = columns.into_iter().map(|(title, unit)| match unit {
-            "" => Column::text(title),
-            unit => Column::number(title, unit),
+            "" => PrintedColumn::text(title),
+            unit => PrintedColumn::number(title, unit),
         });
         Self::new(caption, columns.collect()).with_rows(rows)
     }
@@ -74,14 +74,14 @@ impl Table {
 /// A table in the making: a row per record, growing column by column.
 #[derive(Debug, Clone)]
 pub struct Tabled<R> {
-    table: Table,
+    table: PrintedTable,
     records: Vec<R>,
 }
 
 impl<R> Tabled<R> {
     /// One more column, and what it shows of a record.
     #[must_use]
-    pub fn column(mut self, column: Column, cell: impl Fn(&R) -> Cell) -> Self {
+    pub fn column(mut self, column: PrintedColumn, cell: impl Fn(&R) -> Cell) -> Self {
         self.table.columns.push(column);
         for (row, record) in self.table.rows.iter_mut().zip(&self.records) {
             row.push(cell(record));
@@ -94,7 +94,7 @@ impl<R> Tabled<R> {
     pub fn columns<I>(
         self,
         items: impl IntoIterator<Item = I>,
-        column: impl Fn(&I) -> Column,
+        column: impl Fn(&I) -> PrintedColumn,
         cell: impl Fn(&R, &I) -> Cell,
     ) -> Self {
         items
@@ -114,14 +114,14 @@ impl<R> Tabled<R> {
 
     /// The table.
     #[must_use]
-    pub fn table(self) -> Table {
+    pub fn table(self) -> PrintedTable {
         self.table
     }
 }
 
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Column {
+pub struct PrintedColumn {
     /// Heading.
     pub title: String,
     /// What it shares with its neighbours of the same group, as in a region; shown once above them.
@@ -136,7 +136,7 @@ pub struct Column {
     pub kind: ColumnKind,
 }
 
-impl Column {
+impl PrintedColumn {
     /// A column of words.
     pub fn text(title: impl Into<String>) -> Self {
         Self {

@@ -3,7 +3,7 @@
 use comfy_table::{Attribute, CellAlignment, Color, ContentArrangement, LineStyle, TableStyle};
 
 use super::cell::{Highlight, Value, Verdict};
-use super::{Align, Block, Cell, Colophon, Page, Section, Table};
+use super::{Align, Block, Cell, Colophon, Page, PrintedTable, Section};
 
 /// A rule under the header and nothing else, so that a table can be read, searched and pasted.
 const STYLE: TableStyle =
@@ -42,7 +42,7 @@ pub fn sections(sections: &[Section], layout: Layout) -> String {
 
 /// A table with its caption.
 #[must_use]
-pub fn table(table: &Table, layout: Layout) -> String {
+pub fn table(table: &PrintedTable, layout: Layout) -> String {
     let mut printer = Printer { layout, out: String::new() };
     printer.table(table);
     printer.out
@@ -160,7 +160,7 @@ impl Printer {
         self.out.push('\n');
     }
 
-    fn table(&mut self, table: &Table) {
+    fn table(&mut self, table: &PrintedTable) {
         let mut shown = comfy_table::Table::new();
         shown.load_style(STYLE);
         if let Some(width) = self.layout.table_width {

@@ -8,7 +8,7 @@ use crate::table::Grid;
 
 /// A setting of a simulator.
 #[derive(Debug, Clone, Copy, serde::Serialize)]
-pub struct Parameter {
+pub struct Setting {
     /// Name, as in `--set name=value`.
     pub name: &'static str,
     /// Unit of a number, `1` for a pure one; empty for a word or a file.
@@ -27,7 +27,7 @@ pub struct Simulator {
     /// One line.
     pub description: &'static str,
     /// What may be set.
-    pub parameters: &'static [Parameter],
+    pub parameters: &'static [Setting],
     /// Makes the table.
     pub run: fn(&Settings, &Spectra) -> Result<Simulation, SimulationError>,
 }
@@ -40,7 +40,7 @@ pub struct Simulation {
     /// What is said of it, one line each.
     pub notes: Vec<String>,
     /// Numbers: orders, energies, what each step changes.
-    pub tables: Vec<document::Table>,
+    pub tables: Vec<document::PrintedTable>,
 }
 
 /// Why a simulation could not be made.
@@ -51,7 +51,7 @@ pub struct SimulationError(pub String);
 /// Settings of a simulator: what was given, and the defaults of what was not.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    parameters: &'static [Parameter],
+    parameters: &'static [Setting],
     given: BTreeMap<&'static str, String>,
 }
 
@@ -103,7 +103,7 @@ pub enum SettingsError {
 
 impl Settings {
     /// All defaults.
-    pub fn new(parameters: &'static [Parameter]) -> Self {
+    pub fn new(parameters: &'static [Setting]) -> Self {
         Self { parameters, given: BTreeMap::new() }
     }
 
@@ -113,7 +113,7 @@ impl Settings {
     /// [`SettingsError`] for a text without `=`, an unknown key (listing the known ones) and a key
     /// given twice.
     pub fn parse<S: AsRef<str>>(
-        parameters: &'static [Parameter],
+        parameters: &'static [Setting],
         assignments: &[S],
     ) -> Result<Self, SettingsError> {
         let mut settings = Self::new(parameters);
@@ -132,7 +132,7 @@ impl Settings {
         Ok(settings)
     }
 
-    fn known(&self, key: &str) -> Result<&'static Parameter, SettingsError> {
+    fn known(&self, key: &str) -> Result<&'static Setting, SettingsError> {
         self.parameters.iter().find(|p| p.name == key).ok_or_else(|| SettingsError::UnknownKey {
             key: key.into(),
             known: self.parameters.iter().map(|p| p.name).collect::<Vec<_>>().join(", "),
@@ -203,9 +203,9 @@ impl Settings {
 mod tests {
     use super::*;
 
-    const PARAMETERS: &[Parameter] = &[
-        Parameter { name: "size", unit: "1", default: "3", description: "" },
-        Parameter { name: "window", unit: "", default: "hann", description: "" },
+    const PARAMETERS: &[Setting] = &[
+        Setting { name: "size", unit: "1", default: "3", description: "" },
+        Setting { name: "window", unit: "", default: "hann", description: "" },
     ];
 
     #[test]

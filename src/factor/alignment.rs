@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::LowRankError;
 use super::resampling::bicubic;
-use crate::table::{Channel, Grid, centres};
+use crate::table::{Grid, GridChannel, centres};
 
 /// Determinants below this part of the product of the rows' lengths are 0: the two directions are
 /// one.
@@ -122,7 +122,7 @@ pub fn aligned(table: &Grid, alignment: &Alignment) -> Result<Grid, LowRankError
     let channels = table.channels.iter().map(|channel| {
         let value = |a: [f64; 2]| bicubic(table, channel, inverse.apply(a)) as f32;
         let values = centres(table.x(), table.y()).map(value).collect();
-        Channel::new(&channel.name, &channel.unit, values)
+        GridChannel::new(&channel.name, &channel.unit, values)
     });
     Ok(Grid {
         axes: table.axes.clone(),

@@ -15,12 +15,12 @@ pub struct Decomposition {
     y: Axis,
     origin: String,
     alignment: Alignment,
-    channels: Vec<(Spectrum, ThinSvd)>,
+    channels: Vec<(SingularSpectrum, ThinSvd)>,
 }
 
 /// What the singular values of one channel say.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spectrum {
+pub struct SingularSpectrum {
     /// Name of the channel.
     pub channel: String,
     /// min(nx, ny) values in the channel's unit, descending; those within rounding of 0 are 0.
@@ -30,7 +30,7 @@ pub struct Spectrum {
     pub relative_errors: Vec<f64>,
 }
 
-impl Spectrum {
+impl SingularSpectrum {
     fn of(channel: &str, values: &[f64]) -> Self {
         let mut tails = vec![0.0; values.len() + 1];
         let mut tail = 0.0;
@@ -71,7 +71,7 @@ impl Decomposition {
                 let what = format!("{}: channel {:?}", table.origin, channel.name);
                 let mut svd = thin_svd(of_channel(table, channel).as_ref(), &what)?;
                 canonical(&mut svd);
-                Ok((Spectrum::of(&channel.name, &svd.values), svd))
+                Ok((SingularSpectrum::of(&channel.name, &svd.values), svd))
             })
             .collect::<Result<_, LowRankError>>()?;
         let (x, y) = (table.x().clone(), table.y().clone());
@@ -79,7 +79,7 @@ impl Decomposition {
     }
 
     /// What the singular values say, in the order of the channels.
-    pub fn spectra(&self) -> impl Iterator<Item = &Spectrum> {
+    pub fn spectra(&self) -> impl Iterator<Item = &SingularSpectrum> {
         self.channels.iter().map(|(spectrum, _)| spectrum)
     }
 
@@ -101,7 +101,7 @@ impl Decomposition {
                 got: error.to_string(),
             });
         }
-        let enough = |s: &Spectrum| s.relative_errors.iter().position(|e| *e <= error);
+        let enough = |s: &SingularSpectrum| s.relative_errors.iter().position(|e| *e <= error);
         let ranks = self.spectra().map(|s| enough(s).unwrap_or_else(|| self.largest_rank()));
         Ok(ranks.max().unwrap_or(1).max(1))
     }

@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use super::{Alignment, ChannelFactors, LowRank, LowRankError};
-use crate::table::{Axis, Channel, Column, Grid, Table, store};
+use crate::table::{Axis, Column, Grid, GridChannel, Table, store};
 
 const VERTICAL: &str = "vertical";
 const HORIZONTAL: &str = "horizontal";
@@ -57,7 +57,7 @@ impl LowRank {
                 "{v} channels of vertical factors and {h} of horizontal ones"
             )));
         }
-        let lists = |channel: &Channel, length: usize| -> Vec<Vec<f64>> {
+        let lists = |channel: &GridChannel, length: usize| -> Vec<Vec<f64>> {
             let wide = |list: &[f32]| list.iter().map(|v| f64::from(*v)).collect();
             channel.values.chunks(length).map(wide).collect()
         };
@@ -92,7 +92,7 @@ fn side(name: &str, axis: &Axis, lists: &Lists<'_>) -> Result<Grid, LowRankError
             });
         }
         let values = terms.iter().flatten().map(|v| *v as f32).collect();
-        channels.push(Channel::new(*channel, "1", values));
+        channels.push(GridChannel::new(*channel, "1", values));
     }
     let term = Axis::new("term", "1", [0.5, rank as f64 + 0.5], rank);
     Ok(Grid { axes: vec![axis.clone(), term], channels, origin: format!("{name} factors") })

@@ -7,7 +7,7 @@ use super::matrix::{norm_squared, of_channel, texels};
 use super::methods::require_size;
 use super::terms::Terms;
 use super::{Alignment, LowRankError};
-use crate::table::{Axis, Channel, Grid, centres};
+use crate::table::{Axis, Grid, GridChannel, centres};
 
 /// A kernel as a sum of products: K(a) = Σ_m vertical\[m\](a_y) · horizontal\[m\](a_x), with
 /// a = [`Alignment::matrix`] · h.
@@ -91,7 +91,7 @@ impl LowRank {
         values: impl Fn(usize, &ChannelFactors) -> Vec<f32>,
     ) -> Result<Grid, LowRankError> {
         let named = self.channels.iter().enumerate();
-        let channels = named.map(|(at, c)| Channel::new(&c.name, "1", values(at, c))).collect();
+        let channels = named.map(|(at, c)| GridChannel::new(&c.name, "1", values(at, c))).collect();
         let origin = format!("factors of rank {}", self.rank());
         Ok(Grid::new([x.clone(), y.clone()], channels, origin)?)
     }
@@ -111,7 +111,7 @@ impl LowRank {
         aligned: &Grid,
         squared: impl Fn(&Mat<f64>) -> f64 + Sync,
     ) -> Result<Vec<f64>, LowRankError> {
-        let error = |(channel, terms): (&Channel, Terms)| {
+        let error = |(channel, terms): (&GridChannel, Terms)| {
             let s = of_channel(aligned, channel);
             let whole = squared(&s);
             if whole == 0.0 { 0.0 } else { (squared(&terms.residual(&s)) / whole).sqrt() }
@@ -123,9 +123,9 @@ impl LowRank {
     pub(super) fn matched<'g>(
         &self,
         table: &'g Grid,
-    ) -> Result<Vec<(&'g Channel, Terms)>, LowRankError> {
+    ) -> Result<Vec<(&'g GridChannel, Terms)>, LowRankError> {
         require_size(table, [self.x.count, self.y.count], "the factors have")?;
-        let named = |channel: &'g Channel| {
+        let named = |channel: &'g GridChannel| {
             let factors = self.channels.iter().find(|f| f.name == channel.name);
             let factors = factors.ok_or_else(|| LowRankError::Mismatch {
                 origin: table.origin.clone(),

@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use super::matrix::{norm_squared, times};
 use super::resampling::bicubic;
 use super::{Alignment, LowRankError};
-use crate::table::{Axis, Channel, Edge, Grid, centres};
+use crate::table::{Axis, Edge, Grid, GridChannel, centres};
 
 /// How the directions are searched.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,7 +125,7 @@ pub fn main_directions(
 }
 
 /// The channel that is summed, alone on the table's axes.
-fn intensity(table: &Grid, name: Option<&str>) -> Result<(Grid, Channel), LowRankError> {
+fn intensity(table: &Grid, name: Option<&str>) -> Result<(Grid, GridChannel), LowRankError> {
     let values = match (name, table.channel("G")) {
         (Some(name), _) => table.require(name)?.values.clone(),
         (None, Some(green)) => green.values.clone(),
@@ -141,7 +141,7 @@ fn intensity(table: &Grid, name: Option<&str>) -> Result<(Grid, Channel), LowRan
     };
     let (axes, origin) = (table.axes.clone(), table.origin.clone());
     let plane = Grid { axes, channels: Vec::new(), origin };
-    Ok((plane, Channel::new("intensity", "1", values)))
+    Ok((plane, GridChannel::new("intensity", "1", values)))
 }
 
 /// Half the smaller side about h = 0.
@@ -168,7 +168,7 @@ fn radius(table: &Grid) -> Result<f64, LowRankError> {
 }
 
 /// Σ along both halves of the line at `angle`, in steps of half a texel.
-fn line_sum(plane: &Grid, channel: &Channel, angle: f64, central: f64, radius: f64) -> f64 {
+fn line_sum(plane: &Grid, channel: &GridChannel, angle: f64, central: f64, radius: f64) -> f64 {
     let step = 0.5 * plane.x().step().abs().min(plane.y().step().abs());
     let (sin, cos) = angle.sin_cos();
     let count = ((radius - central) / step).floor() as usize;
@@ -207,7 +207,7 @@ fn least_turned([a, b]: [f64; 2]) -> [f64; 2] {
 }
 
 /// 1 − σ₁²/‖·‖² of the table aligned to two directions; 1 if they are one line.
-fn beyond_rank_one(plane: &Grid, channel: &Channel, [x, y]: [f64; 2]) -> f64 {
+fn beyond_rank_one(plane: &Grid, channel: &GridChannel, [x, y]: [f64; 2]) -> f64 {
     let Ok(alignment) = Alignment::of_directions(x, y) else { return 1.0 };
     let inverse = alignment.inverse();
     let (xs, ys) = (plane.x().centres(), plane.y().centres());
@@ -245,7 +245,7 @@ struct Orders {
 }
 
 impl Orders {
-    fn of(plane: &Grid, channel: &Channel, central: f64, radius: f64) -> Self {
+    fn of(plane: &Grid, channel: &GridChannel, central: f64, radius: f64) -> Self {
         let places: Vec<([f64; 2], f64)> = centres(plane.x(), plane.y())
             .zip(&channel.values)
             .map(|(h, value)| (h, f64::from(*value).powi(2)))

@@ -11,10 +11,10 @@ use faer::linalg::{cholesky::llt, evd, svd};
 use faer::{Accum, Mat, MatRef, Par};
 
 use super::LowRankError;
-use crate::table::{Channel, Grid};
+use crate::table::{Grid, GridChannel};
 
 /// One channel of a table, ny × nx.
-pub(super) fn of_channel(table: &Grid, channel: &Channel) -> Mat<f64> {
+pub(super) fn of_channel(table: &Grid, channel: &GridChannel) -> Mat<f64> {
     let nx = table.x().count;
     let value =
         |iy: usize, ix: usize| channel.values.get(iy * nx + ix).map_or(0.0, |v| f64::from(*v));

@@ -48,7 +48,7 @@ mod weighted;
 pub use alignment::{Alignment, aligned};
 pub use convolution_norm::{ConvolutionNorm, NormOptions, seen_error};
 pub use convolved::{ConvolvedOptions, ConvolvedReport, convolved};
-pub use decomposition::{Decomposition, Spectrum};
+pub use decomposition::{Decomposition, SingularSpectrum};
 pub use directional::{Directional, DirectionalKernel, directional};
 pub use error::LowRankError;
 pub use illumination::Radiance;

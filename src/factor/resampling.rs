@@ -1,10 +1,10 @@
 //! A table between its texels, smoothly.
 
-use crate::table::{Channel, Grid};
+use crate::table::{Grid, GridChannel};
 
 /// The value of `channel` at h: Catmull & Rom's cubic through the sixteen texels around, held within
 /// their range so that a table that is not negative stays so; 0 beyond the table's outer edges.
-pub(super) fn bicubic(table: &Grid, channel: &Channel, h: [f64; 2]) -> f64 {
+pub(super) fn bicubic(table: &Grid, channel: &GridChannel, h: [f64; 2]) -> f64 {
     let (nx, ny) = (table.x().count, table.y().count);
     let (tx, ty) = (table.x().texel(h[0]), table.y().texel(h[1]));
     let on = |t: f64, n: usize| (-0.5..=n as f64 - 0.5).contains(&t);

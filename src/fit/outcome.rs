@@ -117,7 +117,7 @@ pub struct StartOutcome {
 
 /// Where a result comes from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Provenance {
+pub struct FitProvenance {
     /// Version of striae.
     pub striae: String,
     /// SHA-256 of the spec's text.
@@ -172,7 +172,7 @@ pub struct Outcome {
     /// One entry per start.
     pub starts: Vec<StartOutcome>,
     /// Where it comes from.
-    pub provenance: Provenance,
+    pub provenance: FitProvenance,
 }
 
 impl Outcome {
@@ -201,5 +201,5 @@ pub struct FamilyOutcome {
     /// One result per member, in the family's order.
     pub members: Vec<Outcome>,
     /// Where it comes from.
-    pub provenance: Provenance,
+    pub provenance: FitProvenance,
 }

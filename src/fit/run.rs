@@ -12,11 +12,11 @@ use super::inherit::inherit;
 use super::loss::{Loss, factors};
 use super::model::{FormModel, Model, Origin};
 use super::outcome::{
-    FamilyOutcome, Outcome, ParameterOutcome, Provenance, Residuals, StartOutcome, Status,
+    FamilyOutcome, FitProvenance, Outcome, ParameterOutcome, Residuals, StartOutcome, Status,
 };
 use super::problem::Problem;
 use super::round_to_f32::{Shipped, round_to_f32};
-use super::solve::{Ending, Solution, solve_from, starts};
+use super::solve::{Solution, Termination, solve_from, starts};
 use super::spec::{FormChoice, Spec, Target, Weighting};
 use super::statistics::equioscillations;
 use super::target::{Noise, Points, read_table};
@@ -162,7 +162,7 @@ impl<'a> Fit<'a> {
     fn points_of(
         &self,
         reference: &'static Reference,
-        domain: &super::spec::Domain,
+        domain: &super::spec::SampledDomain,
         key: &str,
     ) -> Result<Points, FitError> {
         Points::of_reference(self.spec, reference, &self.inputs, domain, key)
@@ -253,10 +253,10 @@ impl<'a> Fit<'a> {
         }
     }
 
-    fn provenance(&self, data_sha256: String) -> Provenance {
+    fn provenance(&self, data_sha256: String) -> FitProvenance {
         let spec = self.spec;
         let text = if spec.text.is_empty() { &spec.command } else { &spec.text };
-        Provenance {
+        FitProvenance {
             striae: env!("CARGO_PKG_VERSION").to_owned(),
             spec_sha256: sha256_hex(text.as_bytes()),
             data_sha256,
@@ -330,15 +330,15 @@ impl<'a> Fit<'a> {
             form: self.form_name(),
             function: self.form.function().to_owned(),
             target: target.to_owned(),
-            status: status(&solution, finite, worth.spread.condition.is_none()),
+            status: status(&solution, finite, worth.covariance.condition.is_none()),
             solver: solution.solver.clone(),
             loss: spec.loss.name().to_owned(),
             iterations: solution.iterations,
             evaluations,
             parameters,
-            correlation: worth.spread.correlation.clone(),
+            correlation: worth.covariance.correlation.clone(),
             correlation_order: worth.varying.iter().map(|i| assembly.free[*i].clone()).collect(),
-            condition: worth.spread.condition,
+            condition: worth.covariance.condition,
             equioscillations: (spec.loss == Loss::Minimax && points.columns.len() == 1)
                 .then(|| equioscillations(&points.columns[0], residuals.as_slice())),
             residuals: Residuals::measure(
@@ -439,20 +439,21 @@ fn best(solutions: Vec<(Vec<f64>, Solution)>) -> Option<(Vec<f64>, Solution)> {
     let better = |new: &Solution, old: &Solution| {
         let lower = new.cost < old.cost * (1.0 - 1e-9) || !old.cost.is_finite();
         let as_low = new.cost <= old.cost * (1.0 + 1e-9);
-        let converges = new.ending == Ending::Converged && old.ending != Ending::Converged;
+        let converges =
+            new.termination == Termination::Converged && old.termination != Termination::Converged;
         new.cost.is_finite() && (lower || as_low && converges)
     };
     solutions.into_iter().reduce(|old, new| if better(&new.1, &old.1) { new } else { old })
 }
 
 fn status(solution: &Solution, finite: bool, singular: bool) -> Status {
-    match solution.ending {
-        Ending::NonFinite => Status::NonFinite,
+    match solution.termination {
+        Termination::NonFinite => Status::NonFinite,
         _ if !finite || !solution.cost.is_finite() => Status::NonFinite,
         _ if singular => Status::Singular,
-        Ending::IterationLimit => Status::HitIterationLimit,
-        Ending::Stalled => Status::Stalled,
-        Ending::Converged if !solution.at_bound.is_empty() => Status::AtBound,
-        Ending::Converged => Status::Converged,
+        Termination::IterationLimit => Status::HitIterationLimit,
+        Termination::Stalled => Status::Stalled,
+        Termination::Converged if !solution.at_bound.is_empty() => Status::AtBound,
+        Termination::Converged => Status::Converged,
     }
 }

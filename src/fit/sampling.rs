@@ -82,19 +82,19 @@ impl Piece {
 
 /// The values of one argument.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Axis {
+pub enum Sampling {
     /// One value: the argument does not vary.
     Constant(f64),
     /// Pieces one after the other; a point that ends one and begins the next is kept once.
     Pieces(Vec<Piece>),
 }
 
-impl Axis {
+impl Sampling {
     /// The values in the order of the pieces.
     pub fn points(&self) -> Vec<f64> {
         match self {
-            Axis::Constant(value) => vec![*value],
-            Axis::Pieces(pieces) => {
+            Sampling::Constant(value) => vec![*value],
+            Sampling::Pieces(pieces) => {
                 let mut all = Vec::new();
                 for piece in pieces {
                     let points = piece.points();
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn touching_pieces_share_their_point() {
         let piece = |from, to| Piece { from, to, count: 3, spacing: Spacing::Linear };
-        let axis = Axis::Pieces(vec![piece(0.0, 1.0), piece(1.0, 3.0)]);
+        let axis = Sampling::Pieces(vec![piece(0.0, 1.0), piece(1.0, 3.0)]);
         assert_eq!(axis.points(), [0.0, 0.5, 1.0, 2.0, 3.0]);
     }
 

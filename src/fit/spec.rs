@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use super::error::FitError;
 use super::loss::Loss;
-use super::sampling::Axis;
+use super::sampling::Sampling;
 use super::solve::SolverKind;
 use crate::table::Table;
 
@@ -80,7 +80,7 @@ pub enum Target {
 }
 
 /// Values per argument of the form; several arguments make a tensor product.
-pub type Domain = BTreeMap<String, Axis>;
+pub type SampledDomain = BTreeMap<String, Sampling>;
 
 /// What becomes of an `override`.
 #[derive(Debug, Clone, PartialEq)]
@@ -123,13 +123,13 @@ pub struct Spec {
     /// The target.
     pub target: Target,
     /// Where, for a reference.
-    pub domain: Domain,
+    pub domain: SampledDomain,
     /// A region of the effect whose fitted points take the place of the domain, for a reference.
     pub region: Option<String>,
     /// Fits whose committed f32 constants those parameters keep that are not named below.
     pub constants: Vec<String>,
     /// Further regions in which residuals are reported, for a reference.
-    pub outside: BTreeMap<String, Domain>,
+    pub outside: BTreeMap<String, SampledDomain>,
     /// The loss.
     pub loss: Loss,
     /// The solver.
@@ -162,7 +162,7 @@ impl Spec {
             form,
             output: None,
             target,
-            domain: Domain::new(),
+            domain: SampledDomain::new(),
             region: None,
             constants: Vec::new(),
             outside: BTreeMap::new(),
@@ -275,13 +275,13 @@ pub(super) fn start_fault(start: f64, lower: Option<f64>, upper: Option<f64>) ->
     }
 }
 
-fn axis_fault(axis: &Axis) -> Option<String> {
+fn axis_fault(axis: &Sampling) -> Option<String> {
     match axis {
-        Axis::Constant(value) => {
+        Sampling::Constant(value) => {
             (!value.is_finite()).then(|| format!("expected a finite number, got {value}"))
         }
-        Axis::Pieces(pieces) if pieces.is_empty() => Some("expected at least one piece".into()),
-        Axis::Pieces(pieces) => pieces.iter().find_map(super::sampling::Piece::fault),
+        Sampling::Pieces(pieces) if pieces.is_empty() => Some("expected at least one piece".into()),
+        Sampling::Pieces(pieces) => pieces.iter().find_map(super::sampling::Piece::fault),
     }
 }
 

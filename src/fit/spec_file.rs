@@ -7,9 +7,9 @@ use serde::Deserialize;
 
 use super::error::FitError;
 use super::loss::Loss;
-use super::sampling::{Axis, Piece};
+use super::sampling::{Piece, Sampling};
 use super::solve::SolverKind;
-use super::spec::{Domain, FormChoice, ParameterChoice, Spec, Target, Unnamed, Weighting};
+use super::spec::{FormChoice, ParameterChoice, SampledDomain, Spec, Target, Unnamed, Weighting};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -41,7 +41,7 @@ struct SpecFile {
 
 /// Written out by hand in place of an untagged enum, whose errors name neither key nor line.
 #[derive(Debug)]
-struct AxisFile(Axis);
+struct AxisFile(Sampling);
 
 impl<'de> Deserialize<'de> for AxisFile {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -53,14 +53,14 @@ impl<'de> Deserialize<'de> for AxisFile {
                 f.write_str("a number, { from, to, count, spacing } or a list of these")
             }
             fn visit_f64<E>(self, value: f64) -> Result<AxisFile, E> {
-                Ok(AxisFile(Axis::Constant(value)))
+                Ok(AxisFile(Sampling::Constant(value)))
             }
             fn visit_i64<E>(self, value: i64) -> Result<AxisFile, E> {
-                Ok(AxisFile(Axis::Constant(value as f64)))
+                Ok(AxisFile(Sampling::Constant(value as f64)))
             }
             fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<AxisFile, A::Error> {
                 let piece = Piece::deserialize(serde::de::value::MapAccessDeserializer::new(map))?;
-                Ok(AxisFile(Axis::Pieces(vec![piece])))
+                Ok(AxisFile(Sampling::Pieces(vec![piece])))
             }
             fn visit_seq<A: serde::de::SeqAccess<'de>>(
                 self,
@@ -70,7 +70,7 @@ impl<'de> Deserialize<'de> for AxisFile {
                 while let Some(piece) = seq.next_element()? {
                     pieces.push(piece);
                 }
-                Ok(AxisFile(Axis::Pieces(pieces)))
+                Ok(AxisFile(Sampling::Pieces(pieces)))
             }
         }
         deserializer.deserialize_any(Visitor)
@@ -171,7 +171,7 @@ impl Spec {
         for (parameter, choice) in &file.parameters {
             spec.parameters.insert(parameter.clone(), choice_of(&spec, parameter, choice)?);
         }
-        let axes = |axes: BTreeMap<String, AxisFile>| -> Domain {
+        let axes = |axes: BTreeMap<String, AxisFile>| -> SampledDomain {
             axes.into_iter().map(|(argument, axis)| (argument, axis.0)).collect()
         };
         spec.description = file.description;

@@ -11,7 +11,7 @@ const SVD_ITERATIONS: usize = 1000;
 
 /// Covariance of the constants up to the variance of the residuals.
 #[derive(Debug, Clone)]
-pub struct Spread {
+pub struct Covariance {
     /// Condition number of the column-scaled Jacobian; absent if it is singular.
     pub condition: Option<f64>,
     /// √ of the diagonal of (JᵀJ)⁻¹; absent if J is singular.
@@ -20,13 +20,17 @@ pub struct Spread {
     pub correlation: Option<Vec<Vec<f64>>>,
 }
 
-/// The spread from the Jacobian by the constants, by the singular values of the Jacobian with its
+/// The covariance from the Jacobian by the constants, by the singular values of the Jacobian with its
 /// columns scaled to length 1: JᵀJ is never formed.
-pub fn spread(jacobian: &DMatrix<f64>) -> Spread {
-    spread_of(jacobian).unwrap_or(Spread { condition: None, unit_errors: None, correlation: None })
+pub fn covariance(jacobian: &DMatrix<f64>) -> Covariance {
+    covariance_of(jacobian).unwrap_or(Covariance {
+        condition: None,
+        unit_errors: None,
+        correlation: None,
+    })
 }
 
-fn spread_of(jacobian: &DMatrix<f64>) -> Option<Spread> {
+fn covariance_of(jacobian: &DMatrix<f64>) -> Option<Covariance> {
     let n = jacobian.ncols();
     if n == 0 || jacobian.nrows() < n {
         return None;
@@ -63,7 +67,7 @@ fn spread_of(jacobian: &DMatrix<f64>) -> Option<Spread> {
         })
         .collect();
     let unit_errors = roots.iter().zip(&lengths).map(|(root, length)| root / length).collect();
-    Some(Spread {
+    Some(Covariance {
         condition: Some(largest / smallest),
         unit_errors: Some(unit_errors),
         correlation: Some(correlation),
@@ -106,17 +110,17 @@ mod tests {
     fn a_straight_line_has_the_textbook_errors() {
         let x = [1.0, 2.0, 3.0, 4.0];
         let jacobian = DMatrix::from_fn(4, 2, |i, j| if j == 0 { 1.0 } else { x[i] });
-        let spread = spread(&jacobian);
-        let errors = spread.unit_errors.unwrap();
+        let covariance = covariance(&jacobian);
+        let errors = covariance.unit_errors.unwrap();
         assert!((errors[1] - (1.0f64 / 5.0).sqrt()).abs() < 1e-14);
         assert!((errors[0] - (30.0f64 / 20.0).sqrt()).abs() < 1e-14);
-        let correlation = spread.correlation.unwrap()[0][1];
+        let correlation = covariance.correlation.unwrap()[0][1];
         assert!((correlation + 10.0 / (4.0f64 * 30.0).sqrt()).abs() < 1e-14);
     }
 
     #[test]
     fn equal_columns_are_singular() {
-        assert!(spread(&DMatrix::from_element(4, 2, 1.5)).condition.is_none());
+        assert!(covariance(&DMatrix::from_element(4, 2, 1.5)).condition.is_none());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::error::FitError;
 use super::loss::Loss;
 use super::sampling::{MOST_POINTS, tensor_product};
-use super::spec::{Domain, Spec, Weighting};
+use super::spec::{SampledDomain, Spec, Weighting};
 use crate::effect::{NoValue, Reference, ReferenceValues};
 use crate::table::{Column, Table};
 
@@ -51,7 +51,7 @@ impl Points {
         spec: &Spec,
         reference: &'static Reference,
         inputs: &[String],
-        domain: &Domain,
+        domain: &SampledDomain,
         key: &str,
     ) -> Result<Self, FitError> {
         let arguments: Vec<&str> = reference.arguments.iter().map(|q| q.name).collect();

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::loss::Loss;
 use super::solve::Solution;
-use super::statistics::{Spread, residual_deviation, spread};
+use super::statistics::{Covariance, covariance, residual_deviation};
 use super::target::{Noise, Points};
 
 /// Residuals below this part of the target are its rounding to f64 and that of the form.
@@ -15,7 +15,7 @@ pub(super) struct Worth {
     /// Indices of the constants that are not on a bound.
     pub(super) varying: Vec<usize>,
     /// Spread of those.
-    pub(super) spread: Spread,
+    pub(super) covariance: Covariance,
     /// Residual standard deviation, or why it means nothing.
     deviation: Result<f64, &'static str>,
 }
@@ -32,11 +32,15 @@ impl Worth {
     ) -> Self {
         let varying: Vec<usize> =
             (0..jacobian.ncols()).filter(|i| !solution.at_bound.contains(i)).collect();
-        let spread = if varying.is_empty() {
+        let covariance = if varying.is_empty() {
             // Nothing varies, so nothing is undetermined.
-            Spread { condition: Some(1.0), unit_errors: Some(vec![]), correlation: Some(vec![]) }
+            Covariance {
+                condition: Some(1.0),
+                unit_errors: Some(vec![]),
+                correlation: Some(vec![]),
+            }
         } else {
-            spread(&jacobian.select_columns(&varying))
+            covariance(&jacobian.select_columns(&varying))
         };
         let deviation = match (loss, points.noise) {
             (_, Noise::Exact) => Err("the target is exact: residuals are model error, not noise"),
@@ -50,7 +54,7 @@ impl Worth {
                 Some(deviation) => Ok(deviation),
             },
         };
-        Self { varying, spread, deviation }
+        Self { varying, covariance, deviation }
     }
 
     /// Standard error of a free constant, or why there is none.
@@ -59,7 +63,7 @@ impl Worth {
             return Err("on its bound");
         };
         let deviation = self.deviation?;
-        let errors = self.spread.unit_errors.as_ref().ok_or("the Jacobian is singular")?;
+        let errors = self.covariance.unit_errors.as_ref().ok_or("the Jacobian is singular")?;
         errors
             .get(position)
             .map(|unit| unit * deviation)

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::fit::outcome::{Provenance, Status};
+use crate::fit::outcome::{FitProvenance, Status};
 use crate::fit::{FitError, FitResult, Spec};
 use crate::table::store::sha256_hex;
 
@@ -42,7 +42,7 @@ pub(super) fn result(
     Ok(Ok(committed))
 }
 
-fn provenance(result: &FitResult) -> Option<&Provenance> {
+fn provenance(result: &FitResult) -> Option<&FitProvenance> {
     match result {
         FitResult::Single(outcome) => Some(&outcome.provenance),
         FitResult::Family(family) => Some(&family.provenance),

@@ -8,7 +8,7 @@ use crate::validate::sampling::{self, DomainSyntax};
 #[derive(Debug, Clone, PartialEq)]
 pub enum Domain {
     /// `x = -10:10; y = 0:1`: an interval per argument.
-    Box(sampling::Domain),
+    Box(sampling::ArgumentBox),
     /// `far`: a region that the effect names.
     Region(String),
 }
@@ -20,7 +20,7 @@ impl Domain {
     /// [`DomainSyntax`] for anything else.
     pub fn parse(text: &str) -> Result<Self, DomainSyntax> {
         if text.trim().is_empty() || text.contains('=') {
-            sampling::Domain::parse(text).map(Self::Box)
+            sampling::ArgumentBox::parse(text).map(Self::Box)
         } else {
             Ok(Self::Region(text.trim().to_owned()))
         }

@@ -9,12 +9,12 @@ use super::{Domain, Gate, GateError, Metric, Refits, committed};
 use crate::effect::{Candidate, Effect, Member, Reference, Yardstick};
 use crate::fit::Spec;
 use crate::fit::outcome::Outcome;
-use crate::fit::sampling::Axis;
-use crate::fit::spec::Target as SpecTarget;
+use crate::fit::sampling::Sampling;
+use crate::fit::spec::Target;
 use crate::project::{Approximated, Project};
 use crate::render::Scenes;
 use crate::table::{Column, Table};
-use crate::validate::accuracy::{Judged, Target};
+use crate::validate::accuracy::{GroundTruth, Judged};
 use crate::validate::regions::Atlas;
 use crate::validate::sampling::{self, Interval};
 
@@ -115,7 +115,7 @@ impl<'r> Evidence<'r> {
                 continue;
             }
             let target = match gate.metric {
-                Metric::Drift => Target::none(),
+                Metric::Drift => GroundTruth::none(),
                 _ => self.target(gate, &standing, &label, &candidate)?,
             };
             let label = (!label.is_empty()).then_some(label);
@@ -189,7 +189,7 @@ impl<'r> Evidence<'r> {
         standing: &Standing,
         label: &str,
         candidate: &Candidate,
-    ) -> Result<Target, GateError> {
+    ) -> Result<GroundTruth, GateError> {
         match &standing.approximates {
             Approximated::Reference(name) => {
                 Ok(self.judged(gate, standing.spec.as_deref(), name)?.target(&candidate.form)?)
@@ -201,14 +201,14 @@ impl<'r> Evidence<'r> {
                         gate.fault(format!("the family `{name}` has no member `{label}`"))
                     })?;
                 let rows = rows_inside(gate, &member.table)?;
-                Ok(Target::of_table(&rows, &candidate.form)?)
+                Ok(GroundTruth::of_table(&rows, &candidate.form)?)
             }
             Approximated::Table => match standing.spec.as_ref().map(|spec| &spec.target) {
-                Some(SpecTarget::File { path, column, .. }) => {
+                Some(Target::File { path, column, .. }) => {
                     let table = Table::read_csv(self.project.root().join(path))?;
                     let mut rows = rows_inside(gate, &table)?;
                     rename(&mut rows, column)?;
-                    Ok(Target::of_table(&rows, &candidate.form)?)
+                    Ok(GroundTruth::of_table(&rows, &candidate.form)?)
                 }
                 _ => Err(gate.fault("its table is in no file".to_owned())),
             },
@@ -298,14 +298,14 @@ fn reference_points(
     let domain = match &gate.domain {
         Some(Domain::Box(domain)) => domain.clone(),
         _ => {
-            let interval = |(argument, axis): (&String, &Axis)| {
+            let interval = |(argument, axis): (&String, &Sampling)| {
                 let points = axis.points();
                 let from = points.iter().copied().fold(f64::INFINITY, f64::min);
                 let to = points.iter().copied().fold(f64::NEG_INFINITY, f64::max);
                 (from < to).then(|| Interval { argument: argument.clone(), from, to })
             };
             let axes = spec.into_iter().flat_map(|spec| &spec.domain);
-            sampling::Domain { intervals: axes.filter_map(interval).collect() }
+            sampling::ArgumentBox { intervals: axes.filter_map(interval).collect() }
         }
     };
     for Interval { argument, .. } in &domain.intervals {
@@ -323,7 +323,7 @@ fn reference_points(
             continue;
         }
         let axis = spec.and_then(|spec| spec.domain.get(argument.name));
-        let Some(Axis::Constant(value)) = axis else {
+        let Some(Sampling::Constant(value)) = axis else {
             return Err(gate.fault(format!("domain: no interval for `{}`", argument.name)));
         };
         constants.push((argument.name, *value));

@@ -9,7 +9,8 @@ use crate::fit::outcome::Residuals;
 use crate::gpu::Device;
 use crate::validate::ValidateError;
 use crate::validate::accuracy::{
-    Arithmetic, RelativeL2, Target, relative_l2, residuals_device, residuals_f32, residuals_f64,
+    Arithmetic, GroundTruth, RelativeL2, relative_l2, residuals_device, residuals_f32,
+    residuals_f64,
 };
 
 /// The fits that one gate judges together: one, or the members of a family.
@@ -27,7 +28,7 @@ pub(super) struct Instance {
     /// Form and constants.
     pub(super) candidate: Candidate,
     /// Points and true values.
-    pub(super) target: Target,
+    pub(super) target: GroundTruth,
     /// What a proof perturbs.
     pub(super) levers: Vec<Lever>,
 }
@@ -62,7 +63,7 @@ impl Instance {
         &self,
         lever: &Lever,
         step: f64,
-    ) -> (Cow<'_, Candidate>, Cow<'_, Target>) {
+    ) -> (Cow<'_, Candidate>, Cow<'_, GroundTruth>) {
         let (mut candidate, mut target) =
             (Cow::Borrowed(&self.candidate), Cow::Borrowed(&self.target));
         match lever {
@@ -93,7 +94,7 @@ fn moved(value: f64, step: f64) -> f64 {
 pub(super) fn reached(
     label: Option<&str>,
     candidate: &Candidate,
-    target: &Target,
+    target: &GroundTruth,
     metric: Metric,
     precision: Precision,
     device: Option<&Device>,

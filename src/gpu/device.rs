@@ -7,7 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Longest wait for one submission, seconds. Chunks of [`super::Kernel::evaluate`] take
+/// Longest wait for one submission, seconds. Chunks of [`super::DeviceKernel::evaluate`] take
 /// milliseconds; a kernel that needs longer than this hangs.
 const WAIT_SECONDS: u64 = 120;
 

@@ -11,7 +11,7 @@ const CHUNK_POINTS: u64 = 1 << 22;
 
 /// A form compiled for a device, with fixed parameters.
 #[derive(Debug)]
-pub struct Kernel<'d> {
+pub struct DeviceKernel<'d> {
     device: &'d Device,
     program: Program,
     pipeline: Pipeline,
@@ -27,17 +27,17 @@ impl Device {
     ///
     /// # Errors
     /// [`GpuError`] if the number of values is wrong, or the device's compiler rejects the kernel.
-    pub fn compile(&self, form: &Form, parameters: &[f32]) -> Result<Kernel<'_>, GpuError> {
+    pub fn compile(&self, form: &Form, parameters: &[f32]) -> Result<DeviceKernel<'_>, GpuError> {
         self.kernel(Program::new(form, parameters, Purpose::Evaluate)?)
     }
 
-    pub(super) fn kernel(&self, program: Program) -> Result<Kernel<'_>, GpuError> {
+    pub(super) fn kernel(&self, program: Program) -> Result<DeviceKernel<'_>, GpuError> {
         let pipeline = program.pipeline(self)?;
-        Ok(Kernel { device: self, program, pipeline })
+        Ok(DeviceKernel { device: self, program, pipeline })
     }
 }
 
-impl Kernel<'_> {
+impl DeviceKernel<'_> {
     /// Where the text comes from.
     pub fn origin(&self) -> &str {
         self.program.form.origin()
@@ -55,10 +55,10 @@ impl Kernel<'_> {
         self.evaluate_inputs(&inputs.iter().map(Input::from).collect::<Vec<_>>())
     }
 
-    /// Evaluates the form at every row of columns of any type; otherwise as [`Kernel::evaluate`].
+    /// Evaluates the form at every row of columns of any type; otherwise as [`DeviceKernel::evaluate`].
     ///
     /// # Errors
-    /// As [`Kernel::evaluate`]; [`GpuError::Form`] if an integer argument does not take a number.
+    /// As [`DeviceKernel::evaluate`]; [`GpuError::Form`] if an integer argument does not take a number.
     pub fn evaluate_inputs(&self, inputs: &[Input<'_>]) -> Result<Vec<Vec<f32>>, GpuError> {
         let rows = self.program.check(inputs)?;
         let mut outputs = vec![Vec::with_capacity(rows); self.program.outputs()];

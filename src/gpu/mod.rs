@@ -2,7 +2,7 @@
 //!
 //! [`Device::open`] finds an adapter, [`Device::compile`] wraps the form's own text in a compute
 //! kernel with the fitted values as pipeline constants and its tables in buffers, once per device,
-//! [`Kernel::evaluate`] runs it over any number of points, and [`time`] measures what forms cost. Every result that comes from a device
+//! [`DeviceKernel::evaluate`] runs it over any number of points, and [`time`] measures what forms cost. Every result that comes from a device
 //! is to be shown beside its [`AdapterDescription`]. Nothing here panics for want of a device:
 //! [`NoDevice`] and [`GpuError`] say what is missing.
 
@@ -17,7 +17,7 @@ mod timing;
 
 pub use adapter::{AdapterDescription, AdapterReport, list_adapters, required};
 pub use device::{Device, open};
-pub use dispatch::Kernel;
+pub use dispatch::DeviceKernel;
 pub use error::{GpuError, NoDevice};
 pub use pipelines::PipelineCount;
-pub use timing::{Clock, Measurement, Spread, TimedForm, Timing, TimingOptions, time};
+pub use timing::{Clock, Spread, TimedForm, Timing, TimingFigures, TimingOptions, time};

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::import::extension;
 use super::samples::{Samples, require_two};
 use super::{MeasuredError, height_map_raw};
-use crate::table::{Axis, Channel, Grid, units};
+use crate::table::{Axis, Grid, GridChannel, units};
 
 /// Name of the channel of heights in a grid.
 const HEIGHT: &str = "height";
@@ -103,10 +103,10 @@ impl HeightMap {
         };
         let height = |nm: &f64| if nm.is_nan() { 0.0 } else { *nm as f32 };
         let mut channels =
-            vec![Channel::new(HEIGHT, "nm", self.height_nm.iter().map(height).collect())];
+            vec![GridChannel::new(HEIGHT, "nm", self.height_nm.iter().map(height).collect())];
         if self.height_nm.iter().any(|nm| nm.is_nan()) {
             let valid = |nm: &f64| if nm.is_nan() { 0.0 } else { 1.0 };
-            channels.push(Channel::new(VALID, "1", self.height_nm.iter().map(valid).collect()));
+            channels.push(GridChannel::new(VALID, "1", self.height_nm.iter().map(valid).collect()));
         }
         let axes = [axis("x", self.nx, self.dx_um), axis("y", self.ny, self.dy_um)];
         Ok(Grid::new(axes, channels, &self.origin)?)

@@ -43,7 +43,7 @@ impl Backend<'_> {
 /// Kernels made ready, whose colours add up.
 pub(super) struct Painter<'d> {
     kernels: Vec<Kernel>,
-    compiled: Option<Vec<gpu::Kernel<'d>>>,
+    compiled: Option<Vec<gpu::DeviceKernel<'d>>>,
 }
 
 impl<'d> Painter<'d> {

@@ -7,7 +7,7 @@ use crate::document::{Colophon, Page};
 use crate::gate::{Check, Judgement, SCENES};
 use crate::render::{Backend, render};
 use crate::report::html::{Written, write_site};
-use crate::report::pages::{Evidence, SceneEvidence, effect_page, index_page, scenes_page};
+use crate::report::pages::{EffectEvidence, SceneEvidence, effect_page, index_page, scenes_page};
 
 impl Run {
     /// Measures every effect and writes the report on them as by [`Run::report_on`]; where `folder` is
@@ -45,10 +45,10 @@ impl Run {
         let registry = self.project.registry();
         let forms = studied.iter().map(|studied| registry.forms_of(studied.effect).collect());
         let forms: Vec<Vec<_>> = forms.collect();
-        let evidence: Vec<Evidence<'_>> = studied
+        let evidence: Vec<EffectEvidence<'_>> = studied
             .iter()
             .zip(of.iter().zip(&forms))
-            .map(|(studied, (gates, forms))| Evidence {
+            .map(|(studied, (gates, forms))| EffectEvidence {
                 effect: studied.effect,
                 forms,
                 study: &studied.study,

@@ -15,7 +15,7 @@ use ::exr::meta::{BlockDescription, MetaData, header::Header};
 use ::exr::prelude::{LayerAttributes, ReadChannels, ReadLayers, WritableImage, f16, read};
 use serde::{Deserialize, Serialize};
 
-use super::{Axis, Channel, Grid, TableError, store, units};
+use super::{Axis, Grid, GridChannel, TableError, store, units};
 
 /// Largest size of the pixels of a grid, in bytes: what a file declares beyond this is refused
 /// before memory is asked for.
@@ -135,7 +135,7 @@ impl Grid {
         let (across, down) = self.pixels();
         let pixels = encode(&self.origin, across, down, &channels)?;
 
-        let entry = |c: &Channel| ChannelEntry { name: c.name.clone(), unit: c.unit.clone() };
+        let entry = |c: &GridChannel| ChannelEntry { name: c.name.clone(), unit: c.unit.clone() };
         let sidecar = Sidecar {
             x: self.x().clone(),
             y: self.axes.get(1).cloned(),
@@ -290,7 +290,7 @@ fn match_channels(
     sidecar_origin: &str,
     mut decoded: Vec<(String, Vec<f32>)>,
     entries: Vec<ChannelEntry>,
-) -> Result<Vec<Channel>, TableError> {
+) -> Result<Vec<GridChannel>, TableError> {
     let mut channels = Vec::with_capacity(entries.len());
     for entry in entries {
         units::require(&entry.unit, sidecar_origin, &entry.name)?;
@@ -302,7 +302,7 @@ fn match_channels(
             });
         };
         let (name, values) = decoded.swap_remove(index);
-        channels.push(Channel { name, unit: entry.unit, values });
+        channels.push(GridChannel { name, unit: entry.unit, values });
     }
     match decoded.first() {
         Some((name, _)) => Err(TableError::Malformed {

@@ -2,7 +2,7 @@ use super::{Axis, Column, Table, TableError, check_label};
 
 /// A quantity on a [`Grid`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Channel {
+pub struct GridChannel {
     /// Name of the quantity.
     pub name: String,
     /// Its unit, one of [`super::units::KNOWN`].
@@ -11,7 +11,7 @@ pub struct Channel {
     pub values: Vec<f32>,
 }
 
-impl Channel {
+impl GridChannel {
     /// A quantity with its values.
     pub fn new(name: impl Into<String>, unit: impl Into<String>, values: Vec<f32>) -> Self {
         Self { name: name.into(), unit: unit.into(), values }
@@ -24,7 +24,7 @@ pub struct Grid {
     /// The axes, the one that runs fastest first: in an image left to right, then top to bottom.
     pub axes: Vec<Axis>,
     /// The quantities, in the order of the sidecar.
-    pub channels: Vec<Channel>,
+    pub channels: Vec<GridChannel>,
     /// One line on the origin: file and SHA-256, or the reference that made it.
     pub origin: String,
 }
@@ -49,7 +49,7 @@ impl Grid {
     /// As [`Grid::check`].
     pub fn new(
         axes: impl Into<Vec<Axis>>,
-        channels: Vec<Channel>,
+        channels: Vec<GridChannel>,
         origin: impl Into<String>,
     ) -> Result<Self, TableError> {
         let grid = Self { axes: axes.into(), channels, origin: origin.into() };
@@ -73,7 +73,7 @@ impl Grid {
     }
 
     /// The channel called `name`.
-    pub fn channel(&self, name: &str) -> Option<&Channel> {
+    pub fn channel(&self, name: &str) -> Option<&GridChannel> {
         self.channels.iter().find(|c| c.name == name)
     }
 
@@ -81,7 +81,7 @@ impl Grid {
     ///
     /// # Errors
     /// [`TableError::UnknownColumn`], listing the channels that are there.
-    pub fn require(&self, name: &str) -> Result<&Channel, TableError> {
+    pub fn require(&self, name: &str) -> Result<&GridChannel, TableError> {
         self.channel(name).ok_or_else(|| TableError::UnknownColumn {
             origin: self.origin.clone(),
             name: name.into(),
@@ -112,7 +112,7 @@ impl Grid {
 
     /// The value of one of its channels at a place, one coordinate per axis (NaN otherwise): linear
     /// between the centres of the texels along every axis.
-    pub fn sample(&self, channel: &Channel, place: &[f64], edge: Edge) -> f64 {
+    pub fn sample(&self, channel: &GridChannel, place: &[f64], edge: Edge) -> f64 {
         if place.len() != self.axes.len() {
             return f64::NAN;
         }
@@ -174,7 +174,7 @@ impl Grid {
         Ok(())
     }
 
-    fn check_channel(&self, i: usize, channel: &Channel) -> Result<(), TableError> {
+    fn check_channel(&self, i: usize, channel: &GridChannel) -> Result<(), TableError> {
         let before = self.channels.iter().take(i).map(|c| c.name.as_str());
         check_label(&self.origin, &channel.name, &channel.unit, before)?;
         let (origin, name) = (self.origin.clone(), channel.name.clone());

@@ -21,7 +21,7 @@ pub use self::exr::{MAX_PIXEL_BYTES, sidecar_path};
 pub(crate) use self::exr::{
     decode as decode_exr, encode as encode_exr, encode_half as encode_half_exr,
 };
-pub use self::grid::{Channel, Edge, Grid, centres};
+pub use self::grid::{Edge, Grid, GridChannel, centres};
 
 /// A column of numbers.
 #[derive(Debug, Clone, PartialEq)]

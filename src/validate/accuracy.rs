@@ -4,19 +4,19 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::effect::{Candidate, NoValue, Reference, Yardstick};
 #[cfg(doc)]
-use crate::effect::{Candidate, Region};
+use crate::effect::Region;
+use crate::effect::{Candidate, NoValue, Reference, Yardstick};
 use crate::fit::outcome::Residuals;
 use crate::form::{Form, Input};
-use crate::gpu::{Device, Kernel};
+use crate::gpu::{Device, DeviceKernel};
 use crate::numeric::measured::Measured;
 use crate::table::Table;
 use crate::validate::ValidateError;
 
 /// Points and what the form should return there.
 #[derive(Debug, Clone)]
-pub struct Target {
+pub struct GroundTruth {
     /// Argument names, as in [`Form::input_columns`].
     pub arguments: Vec<String>,
     /// One column per argument.
@@ -81,7 +81,7 @@ impl Judged {
     ///
     /// # Errors
     /// If a column is missing.
-    pub fn target(&self, form: &Form) -> Result<Target, ValidateError> {
+    pub fn target(&self, form: &Form) -> Result<GroundTruth, ValidateError> {
         let arguments = form.input_columns();
         let inputs = arguments
             .iter()
@@ -92,11 +92,11 @@ impl Judged {
             Some(by) => Some((by, column(&self.points, by)?.to_vec())),
         };
         let (values, outputs, yardstick) = (self.values.clone(), self.outputs, self.yardstick);
-        Ok(Target { arguments, inputs, values, outputs, groups, yardstick })
+        Ok(GroundTruth { arguments, inputs, values, outputs, groups, yardstick })
     }
 }
 
-impl Target {
+impl GroundTruth {
     /// The values of `reference` at `points`, which have a column for every input of `form` too.
     ///
     /// # Errors
@@ -241,8 +241,8 @@ fn headline(yardstick: Yardstick, residuals: &Residuals, relative_l2: f64) -> f6
 /// If the form cannot be evaluated, or the device fails.
 pub fn accuracy(
     candidate: &Candidate,
-    target: &Target,
-    kernel: &Measured<Kernel<'_>>,
+    target: &GroundTruth,
+    kernel: &Measured<DeviceKernel<'_>>,
 ) -> Result<Accuracy, ValidateError> {
     let (device, headline_device) = match kernel {
         Measured::NotMeasured(reason) => {
@@ -274,7 +274,10 @@ pub fn accuracy(
 ///
 /// # Errors
 /// If the form cannot be evaluated.
-pub fn residuals_f64(candidate: &Candidate, target: &Target) -> Result<Residuals, ValidateError> {
+pub fn residuals_f64(
+    candidate: &Candidate,
+    target: &GroundTruth,
+) -> Result<Residuals, ValidateError> {
     Ok(target.residuals(&values_f64(candidate, target)?))
 }
 
@@ -282,7 +285,10 @@ pub fn residuals_f64(candidate: &Candidate, target: &Target) -> Result<Residuals
 ///
 /// # Errors
 /// If the form cannot be evaluated.
-pub fn residuals_f32(candidate: &Candidate, target: &Target) -> Result<Residuals, ValidateError> {
+pub fn residuals_f32(
+    candidate: &Candidate,
+    target: &GroundTruth,
+) -> Result<Residuals, ValidateError> {
     Ok(target.residuals(&widened(&values_f32(candidate, target)?)))
 }
 
@@ -292,7 +298,7 @@ pub fn residuals_f32(candidate: &Candidate, target: &Target) -> Result<Residuals
 /// If the device fails.
 pub fn residuals_device(
     candidate: &Candidate,
-    target: &Target,
+    target: &GroundTruth,
     device: &Device,
 ) -> Result<Residuals, ValidateError> {
     Ok(target.residuals(&widened(&device_values(candidate, target, device)?)))
@@ -304,7 +310,7 @@ pub fn residuals_device(
 /// If the form cannot be evaluated, or the device fails.
 pub fn relative_l2(
     candidate: &Candidate,
-    target: &Target,
+    target: &GroundTruth,
     precision: Arithmetic<'_>,
 ) -> Result<RelativeL2, ValidateError> {
     let values = match precision {
@@ -327,14 +333,14 @@ pub enum Arithmetic<'d> {
 }
 
 /// Values in f32 at the target's points.
-fn values_f64(candidate: &Candidate, target: &Target) -> Result<Vec<f64>, ValidateError> {
+fn values_f64(candidate: &Candidate, target: &GroundTruth) -> Result<Vec<f64>, ValidateError> {
     let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
     joined(candidate.form.origin(), target, candidate.form.eval_f64(&candidate.constants, &inputs)?)
 }
 
 pub(crate) fn values_f32(
     candidate: &Candidate,
-    target: &Target,
+    target: &GroundTruth,
 ) -> Result<Vec<f32>, ValidateError> {
     let Candidate { form, constants_f32, .. } = candidate;
     let values = form.eval_f32_inputs(constants_f32, &as_inputs(&target.inputs))?;
@@ -344,7 +350,7 @@ pub(crate) fn values_f32(
 /// Values on the device at the target's points.
 pub(crate) fn device_values(
     candidate: &Candidate,
-    target: &Target,
+    target: &GroundTruth,
     device: &Device,
 ) -> Result<Vec<f32>, ValidateError> {
     kernel_values(&device.compile(&candidate.form, &candidate.constants_f32)?, target)
@@ -352,8 +358,8 @@ pub(crate) fn device_values(
 
 /// Values of a compiled form at the target's points.
 pub(crate) fn kernel_values(
-    kernel: &Kernel<'_>,
-    target: &Target,
+    kernel: &DeviceKernel<'_>,
+    target: &GroundTruth,
 ) -> Result<Vec<f32>, ValidateError> {
     let values = kernel.evaluate_inputs(&as_inputs(&target.inputs))?;
     joined(kernel.origin(), target, values)
@@ -362,7 +368,7 @@ pub(crate) fn kernel_values(
 /// The outputs that `target` has values for, one after the other.
 fn joined<T: Copy>(
     form: &str,
-    target: &Target,
+    target: &GroundTruth,
     mut outputs: Vec<Vec<T>>,
 ) -> Result<Vec<T>, ValidateError> {
     match target.outputs {

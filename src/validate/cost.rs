@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::effect::{Candidate, Reference};
 use crate::form::{Input, OpCount, ScalarType};
-use crate::gpu::{self, AdapterDescription, Device, Measurement, TimedForm, TimingOptions};
+use crate::gpu::{self, AdapterDescription, Device, TimedForm, TimingFigures, TimingOptions};
 use crate::numeric::measured::Measured;
 use crate::numeric::statistics::percentile;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::Target;
+use crate::validate::accuracy::GroundTruth;
 
 /// Cost of one form.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,7 +30,7 @@ pub struct Cost {
     /// Nanoseconds per evaluation on f32 lanes, one core.
     pub lanes_f32_ns: f64,
     /// Cost on the device, net of an empty kernel.
-    pub device: Measured<Measurement>,
+    pub device: Measured<TimingFigures>,
 }
 
 impl Cost {
@@ -68,7 +68,7 @@ pub struct Timed {
     /// The form.
     pub candidate: Candidate,
     /// Where it is evaluated.
-    pub target: Target,
+    pub target: GroundTruth,
 }
 
 /// A reference and the points over which it is timed.
@@ -196,7 +196,7 @@ fn device_timings(
     candidates: &[Timed],
     inputs: &[Vec<Vec<f64>>],
     device: &Measured<Device>,
-) -> Result<Vec<Measured<Measurement>>, ValidateError> {
+) -> Result<Vec<Measured<TimingFigures>>, ValidateError> {
     let device = match device {
         Measured::Value(device) => device,
         Measured::NotMeasured(reason) => {

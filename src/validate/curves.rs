@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::effect::{Candidate, Member, Reference};
 use crate::table::{Column, Table};
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Target, values_f32};
+use crate::validate::accuracy::{GroundTruth, values_f32};
 
 /// Error of one form along its argument.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub fn against_reference(
         }],
         origin: format!("points of {}", reference.name),
     };
-    error(candidate, &Target::of_reference(reference, points, &candidate.form)?)
+    error(candidate, &GroundTruth::of_reference(reference, points, &candidate.form)?)
 }
 
 /// Error of `candidate` over a family member's held-out table, along the first argument.
@@ -44,10 +44,10 @@ pub fn against_reference(
 /// # Errors
 /// If the table lacks a column, or the form cannot be evaluated.
 pub fn over_member(candidate: &Candidate, member: &Member) -> Result<Curve, ValidateError> {
-    error(candidate, &Target::of_table(&member.table, &candidate.form)?)
+    error(candidate, &GroundTruth::of_table(&member.table, &candidate.form)?)
 }
 
-fn error(candidate: &Candidate, target: &Target) -> Result<Curve, ValidateError> {
+fn error(candidate: &Candidate, target: &GroundTruth) -> Result<Curve, ValidateError> {
     let values = values_f32(candidate, target)?;
     let mut points: Vec<(f64, f64)> = target
         .inputs

@@ -7,10 +7,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::effect::Candidate;
-use crate::gpu::Kernel;
+use crate::gpu::DeviceKernel;
 use crate::numeric::ulp::ulp_distance_f32;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Target, kernel_values, values_f32};
+use crate::validate::accuracy::{GroundTruth, kernel_values, values_f32};
 
 /// Upper ends of the histogram's bins, in units in the last place; the last bin is open.
 pub const BINS: [u64; 8] = [0, 1, 2, 4, 16, 256, 65_536, u64::MAX];
@@ -40,8 +40,8 @@ pub struct Parity {
 /// If the form cannot be evaluated, or the device fails.
 pub fn parity(
     candidate: &Candidate,
-    target: &Target,
-    kernel: &Kernel<'_>,
+    target: &GroundTruth,
+    kernel: &DeviceKernel<'_>,
 ) -> Result<Parity, ValidateError> {
     let lanes = values_f32(candidate, target)?;
     let on_device = kernel_values(kernel, target)?;

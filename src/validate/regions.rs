@@ -8,7 +8,7 @@ use crate::effect::{Effect, Reference, Region};
 use crate::form::Form;
 use crate::table::Table;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Judged, Target};
+use crate::validate::accuracy::{GroundTruth, Judged};
 
 /// Points and values of every region that was asked for.
 #[derive(Debug, Default)]
@@ -76,7 +76,7 @@ impl Grounds {
     pub(super) fn regions(
         &self,
         form: &Form,
-    ) -> Result<Vec<(&'static str, Target)>, ValidateError> {
+    ) -> Result<Vec<(&'static str, GroundTruth)>, ValidateError> {
         served(&self.regions, form)
     }
 
@@ -84,13 +84,13 @@ impl Grounds {
     pub(super) fn hard_cases(
         &self,
         form: &Form,
-    ) -> Result<Vec<(&'static str, Target)>, ValidateError> {
+    ) -> Result<Vec<(&'static str, GroundTruth)>, ValidateError> {
         served(&self.hard_cases, form)
     }
 
     /// All regions together.
-    pub(super) fn everywhere(&self, form: &Form) -> Result<Option<Target>, ValidateError> {
-        Ok(Target::all(self.regions(form)?.into_iter().map(|(_, target)| target)))
+    pub(super) fn everywhere(&self, form: &Form) -> Result<Option<GroundTruth>, ValidateError> {
+        Ok(GroundTruth::all(self.regions(form)?.into_iter().map(|(_, target)| target)))
     }
 
     /// The arguments of the reference over all regions, or over the hard cases where there are none.
@@ -107,7 +107,7 @@ impl Grounds {
 fn served(
     grounds: &[(&'static str, Arc<Judged>)],
     form: &Form,
-) -> Result<Vec<(&'static str, Target)>, ValidateError> {
+) -> Result<Vec<(&'static str, GroundTruth)>, ValidateError> {
     let serving = grounds.iter().filter(|(_, judged)| judged.serves(form));
     serving.map(|(name, judged)| Ok((*name, judged.target(form)?))).collect()
 }

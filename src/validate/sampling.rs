@@ -7,7 +7,7 @@ use crate::table::{Column, Table};
 
 /// A box in the space of a form's arguments, as written in a gate: `x = -10:10; mu = 0:1`.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Domain {
+pub struct ArgumentBox {
     /// One interval per argument, in the order written.
     pub intervals: Vec<Interval>,
 }
@@ -33,7 +33,7 @@ pub struct DomainSyntax {
     found: String,
 }
 
-impl Domain {
+impl ArgumentBox {
     /// Parses `name = from:to; name = from:to`.
     ///
     /// # Errors
@@ -86,7 +86,7 @@ const SEED: u64 = 0x005e_ed0f_9a7e;
 /// in f64 see the same point.
 ///
 /// The columns come in the order of `domain`; `hard_cases` needs a column of each name to add any.
-pub fn points(domain: &Domain, hard_cases: &[Table]) -> Table {
+pub fn points(domain: &ArgumentBox, hard_cases: &[Table]) -> Table {
     let dimensions = domain.intervals.len();
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); dimensions];
     let mut push = |point: &[f64]| {
@@ -157,7 +157,7 @@ fn inside(value: f64, interval: &Interval) -> f64 {
     f64::from(held)
 }
 
-fn rows_inside(table: &Table, domain: &Domain) -> Vec<Vec<f64>> {
+fn rows_inside(table: &Table, domain: &ArgumentBox) -> Vec<Vec<f64>> {
     let Some(columns) = domain
         .intervals
         .iter()
@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn a_domain_reads_back() {
-        let domain = Domain::parse("x = -10:10; mu = 0:1").expect("well formed");
+        let domain = ArgumentBox::parse("x = -10:10; mu = 0:1").expect("well formed");
         assert_eq!(domain.intervals.len(), 2);
         assert_eq!(domain.intervals[1], Interval { argument: "mu".into(), from: 0.0, to: 1.0 });
     }
@@ -193,13 +193,13 @@ mod tests {
         for text in
             ["", "x", "x = 1", "x = 1:1", "x = 2:1", "x = a:b", "x = 0:inf", "= 0:1", "x=0:1;x=0:2"]
         {
-            assert!(Domain::parse(text).is_err(), "{text}");
+            assert!(ArgumentBox::parse(text).is_err(), "{text}");
         }
     }
 
     #[test]
     fn points_stay_inside_and_are_f32_numbers() {
-        let domain = Domain::parse("x = 0.1:0.7").expect("well formed");
+        let domain = ArgumentBox::parse("x = 0.1:0.7").expect("well formed");
         let table = points(&domain, &[]);
         assert!(table.rows() > CELLS);
         for value in &table.columns[0].values {
@@ -219,7 +219,7 @@ mod tests {
             }],
             origin: String::new(),
         };
-        let domain = Domain::parse("x = 0:1").expect("well formed");
+        let domain = ArgumentBox::parse("x = 0:1").expect("well formed");
         let with = points(&domain, std::slice::from_ref(&hard));
         assert_eq!(with.rows(), points(&domain, &[]).rows() + 1);
         assert_eq!(with.columns[0].values.last(), Some(&0.25));

@@ -8,7 +8,7 @@ use crate::gpu::Device;
 use crate::numeric::measured::Measured;
 use crate::project::{Approximated, Fitted, Project, Subject};
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Accuracy, Target, accuracy, residuals_f32};
+use crate::validate::accuracy::{Accuracy, GroundTruth, accuracy, residuals_f32};
 use crate::validate::family::{FormOverFamily, GroupSpread, over_family, spreads};
 use crate::validate::laws::{LawVerdict, judge};
 use crate::validate::parity::{Parity, parity};
@@ -133,7 +133,7 @@ fn one(
         }
         Measured::NotMeasured(reason) => Measured::NotMeasured(reason.clone()),
     };
-    let judged = |targets: Vec<(&'static str, Target)>| {
+    let judged = |targets: Vec<(&'static str, GroundTruth)>| {
         targets
             .iter()
             .map(|(name, target)| Ok(((*name).to_owned(), accuracy(candidate, target, &kernel)?)))
@@ -168,7 +168,7 @@ fn judge_family(subject: &Subject, members: &[Member]) -> Result<FormOverFamily,
         let candidate = subject.of_member(&member.label).ok_or_else(|| {
             ValidateError::NoMember { fit: subject.name.clone(), member: member.label.clone() }
         })?;
-        let target = Target::of_table(&member.table, &candidate.form)?;
+        let target = GroundTruth::of_table(&member.table, &candidate.form)?;
         residuals.push(residuals_f32(candidate, &target)?);
     }
     let outcomes = subject.fitted.as_ref().map(|Fitted { result, .. }| result.outcomes());

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::effect::{Effect, Member};
 use crate::project::{Approximated, Project, Subject};
 use crate::validate::ValidateError;
-use crate::validate::accuracy::Target;
+use crate::validate::accuracy::GroundTruth;
 use crate::validate::cost::{Timed, TimedReference};
 use crate::validate::regions::Atlas;
 
@@ -43,9 +43,9 @@ pub fn timed(
                 let targets = held_out
                     .iter()
                     .step_by(held_out.len().div_ceil(MEMBERS).max(1))
-                    .map(|member| Target::of_table(&member.table, &candidate.form))
+                    .map(|member| GroundTruth::of_table(&member.table, &candidate.form))
                     .collect::<Result<Vec<_>, _>>()?;
-                (FAMILIES, Target::all(targets))
+                (FAMILIES, GroundTruth::all(targets))
             }
             Approximated::Table => continue,
         };

@@ -1,7 +1,7 @@
 //! Kernels from factors, as printed and as meant; kernels along lines.
 
 use striae::factor::{Decomposition, DirectionalKernel, directional};
-use striae::table::{Axis, Channel, Grid};
+use striae::table::{Axis, Grid, GridChannel};
 
 use super::tables::{cross, disc, display, noisy, table};
 
@@ -112,7 +112,7 @@ fn drawn(kernels: &[DirectionalKernel], x: &Axis, y: &Axis) -> Grid {
             }
         }
         let values = values.iter().map(|v| *v as f32).collect();
-        channels.push(Channel::new(name, "1", values));
+        channels.push(GridChannel::new(name, "1", values));
     }
     Grid::new([x.clone(), y.clone()], channels, format!("{} lines", kernels.len())).expect("finite")
 }

@@ -3,7 +3,7 @@
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use striae::measured::environment::Environment;
-use striae::table::{Axis, Channel, Grid};
+use striae::table::{Axis, Grid, GridChannel};
 
 /// A square table over [−half, half]² with channels R, G, B; `value` gives them at h.
 pub(crate) fn table(n: usize, half: f64, value: impl Fn(f64, f64) -> [f64; 3]) -> Grid {
@@ -13,7 +13,7 @@ pub(crate) fn table(n: usize, half: f64, value: impl Fn(f64, f64) -> [f64; 3]) -
     let (xs, ys) = (x.centres(), y.centres());
     let texels: Vec<[f64; 3]> =
         ys.iter().flat_map(|hy| xs.iter().map(|hx| value(*hx, *hy)).collect::<Vec<_>>()).collect();
-    let channel = |(k, name): (usize, &str)| Channel {
+    let channel = |(k, name): (usize, &str)| GridChannel {
         name: name.into(),
         unit: "1".into(),
         values: texels.iter().map(|t| t[k] as f32).collect(),
@@ -27,7 +27,7 @@ pub(crate) fn rows(rows: &[&[f32]]) -> Grid {
     let mut grid = table(1, 0.5, |_, _| [0.0; 3]);
     grid.axes[0].count = rows[0].len();
     grid.axes[1].count = rows.len();
-    grid.channels = vec![Channel { name: "Y".into(), unit: "1".into(), values: rows.concat() }];
+    grid.channels = vec![GridChannel { name: "Y".into(), unit: "1".into(), values: rows.concat() }];
     grid
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use striae::measured::HeightMap;
-use striae::table::{Axis, Channel, Grid};
+use striae::table::{Axis, Grid, GridChannel};
 
 use crate::{Outcome, assert_refused, outside};
 
@@ -36,7 +36,7 @@ fn grid() -> Grid {
         to,
         count,
     };
-    let channel = |name: &str, unit: &str, values: &[f32]| Channel {
+    let channel = |name: &str, unit: &str, values: &[f32]| GridChannel {
         name: name.into(),
         unit: unit.into(),
         values: values.to_vec(),

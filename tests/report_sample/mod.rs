@@ -1,9 +1,10 @@
 //! A report with every kind of block, with figures of the shapes that effects show: error curves,
 //! error against cost, small multiples.
 
-use striae::document::plot::{Axis, Plot, Series};
+use striae::document::plot::{Plot, PlotAxis, Series};
 use striae::document::{
-    Block, Cell, Colophon, Column, Figure, Highlight, NoticeLevel, Page, Section, Table, Verdict,
+    Block, Cell, Colophon, Figure, Highlight, NoticeLevel, Page, PrintedColumn, PrintedTable,
+    Section, Verdict,
 };
 
 pub(crate) fn provenance() -> Colophon {
@@ -33,8 +34,8 @@ fn error_curves() -> Figure {
     };
     let plot = Plot::new(
         "Error over the fitted domain",
-        Axis::linear("x", "rad"),
-        Axis::linear("form − Si(x)", "1"),
+        PlotAxis::linear("x", "rad"),
+        PlotAxis::linear("form − Si(x)", "1"),
     )
     .series(Series::line("published, eq. 29", curve(0.05, 0.1, 0.0)).strong())
     .series(Series::line("refitted, least squares", curve(0.034, 0.14, 0.4)))
@@ -57,12 +58,15 @@ fn error_magnitude() -> Figure {
             (x, scale * (x * rate).sin().abs() / (1.0 + 0.01 * x))
         })
     };
-    let plot =
-        Plot::new("Magnitude of the error", Axis::log("x", "rad"), Axis::log("|error|", "1"))
-            .series(Series::line("published, eq. 29", curve(0.05, 1.0)).strong())
-            .series(Series::line("rational, large", curve(3e-7, 0.9)))
-            .series(Series::line("table, 256 entries", curve(2e-4, 3.0)))
-            .series(Series::line("with zeros", [(0.1, 0.0), (1.0, 1e-3), (10.0, f64::NAN)]));
+    let plot = Plot::new(
+        "Magnitude of the error",
+        PlotAxis::log("x", "rad"),
+        PlotAxis::log("|error|", "1"),
+    )
+    .series(Series::line("published, eq. 29", curve(0.05, 1.0)).strong())
+    .series(Series::line("rational, large", curve(3e-7, 0.9)))
+    .series(Series::line("table, 256 entries", curve(2e-4, 3.0)))
+    .series(Series::line("with zeros", [(0.1, 0.0), (1.0, 1e-3), (10.0, f64::NAN)]));
     Figure::new("sine_integral-magnitude", "The same, log–log, far into the tail.", plot)
 }
 
@@ -85,8 +89,8 @@ fn error_against_cost() -> Figure {
     let elementary: Vec<_> = forms.iter().take(4).map(|f| (f.1, f.2)).collect();
     let mut plot = Plot::new(
         "Error against cost",
-        Axis::log("cost on the device, relative to the published form", "1"),
-        Axis::log("max |error|, f32, |x| ≤ 1e4", "1"),
+        PlotAxis::log("cost on the device, relative to the published form", "1"),
+        PlotAxis::log("max |error|, f32, |x| ≤ 1e4", "1"),
     )
     .series(Series::markers("elementary functions", elementary))
     .series(Series::markers("rational", group("rational")))
@@ -103,16 +107,18 @@ fn error_against_cost() -> Figure {
     )
 }
 
-fn wide_table() -> Table {
-    let mut columns = vec![Column::code("form")];
+fn wide_table() -> PrintedTable {
+    let mut columns = vec![PrintedColumn::code("form")];
     for region in ["[-10, 10]", "[10, 1e4]", "scene"] {
         for lane in ["f64", "f32", "device"] {
-            columns.push(Column::number(lane, "1").grouped(format!("max |error|, {region}")));
+            columns
+                .push(PrintedColumn::number(lane, "1").grouped(format!("max |error|, {region}")));
         }
     }
-    columns.push(Column::number("cost", "ns"));
-    columns.push(Column::verdict("gate"));
-    let mut table = Table::new("Residuals of every form, on points that were not fitted.", columns);
+    columns.push(PrintedColumn::number("cost", "ns"));
+    columns.push(PrintedColumn::verdict("gate"));
+    let mut table =
+        PrintedTable::new("Residuals of every form, on points that were not fitted.", columns);
     for (index, name) in ["published", "refitted", "minimax", "rational_large"].iter().enumerate() {
         let scale = [0.05098, 0.0427, 0.0381, 4.2e-7][index];
         let mut row = vec![Cell::text(format!("sine_integral/{name}"))];
@@ -139,15 +145,15 @@ fn wide_table() -> Table {
     table
 }
 
-fn findings() -> Table {
-    let mut table = Table::new(
+fn findings() -> PrintedTable {
+    let mut table = PrintedTable::new(
         "Claims as printed, beside what is found.",
         vec![
-            Column::text("place"),
-            Column::text("printed"),
-            Column::text("found"),
-            Column::verdict("verdict"),
-            Column::code("command"),
+            PrintedColumn::text("place"),
+            PrintedColumn::text("printed"),
+            PrintedColumn::text("found"),
+            PrintedColumn::verdict("verdict"),
+            PrintedColumn::code("command"),
         ],
     );
     table.push(vec![
@@ -216,14 +222,14 @@ fn fresnel() -> Page {
         let exact = grid(0.0, 1.0, 200).map(move |mu| (mu, 1.0 - (1.0 - mu.powi(5)) * (0.4 - dip)));
         let schlick =
             grid(0.0, 1.0, 200).map(move |mu| (mu, 1.0 - (1.0 - mu.powi(4)) * (0.38 - dip)));
-        Plot::new(*name, Axis::linear("μ", "1").range(0.0, 1.0), Axis::linear("R", "1"))
+        Plot::new(*name, PlotAxis::linear("μ", "1").range(0.0, 1.0), PlotAxis::linear("R", "1"))
             .series(Series::line("exact", exact).strong())
             .series(Series::dashed("Schlick", schlick))
             .series(Series::markers("measured", grid(0.1, 0.9, 5).map(|mu| (mu, 0.8))))
     });
     let signed = grid(-10.0, 10.0, 400).map(|x| (x, 1e-6 * x.powi(5)));
     let signed_plot =
-        Plot::new("Signed error", Axis::linear("x", "1"), Axis::symlog("error", "1", 1e-6))
+        Plot::new("Signed error", PlotAxis::linear("x", "1"), PlotAxis::symlog("error", "1", 1e-6))
             .series(Series::line_markers("error", signed.step_by(20)));
     Page::new("fresnel", "Fresnel reflectance", "Conductors and dielectrics.").section(
         Section::new("Reflectance")

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use striae::table::{Axis, Channel, Grid, TableError, sidecar_path};
+use striae::table::{Axis, Grid, GridChannel, TableError, sidecar_path};
 
 use crate::assert_says;
 
@@ -16,7 +16,7 @@ pub(crate) fn grid() -> Grid {
         count,
     };
     let (x, y) = (axis("mu", "1", 0.0, 1.0, 7), axis("wavelength", "nm", 700.0, 400.0, 5));
-    let channel = |name: &str, unit: &str, scale: f32| Channel {
+    let channel = |name: &str, unit: &str, scale: f32| GridChannel {
         name: name.into(),
         unit: unit.into(),
         values: (0..35).map(|i| (i as f32 * scale).sin() * 1e-3).collect(),
@@ -147,7 +147,7 @@ fn grids_of_any_dimension_read_back() -> Result<(), Box<dyn std::error::Error>> 
         let axes = axes[..dimension].to_vec();
         let texels: usize = axes.iter().map(|axis| axis.count).product();
         let values: Vec<f32> = (0..texels).map(|i| (i as f32).sqrt()).collect();
-        let written = Grid::new(axes, vec![Channel::new("f", "sr^-1", values)], "made")?;
+        let written = Grid::new(axes, vec![GridChannel::new("f", "sr^-1", values)], "made")?;
         written.write_exr(&path)?;
         let read = Grid::read_exr(&path)?;
         assert_eq!(Grid { origin: written.origin.clone(), ..read }, written);

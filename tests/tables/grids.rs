@@ -1,6 +1,6 @@
 //! Grids of any dimension: sampling, texels, and what is refused.
 
-use striae::table::{Axis, Channel, Edge, Grid};
+use striae::table::{Axis, Edge, Grid, GridChannel};
 
 /// 4 × 3 × 2 texels of a function that is linear along every axis.
 fn linear() -> Grid {
@@ -16,7 +16,7 @@ fn linear() -> Grid {
         function(x, y, z) as f32
     };
     let values = (0..24).map(value).collect();
-    grid.channels.push(Channel::new("f", "1", values));
+    grid.channels.push(GridChannel::new("f", "1", values));
     grid
 }
 

@@ -5,7 +5,7 @@
 //! | λ, k | `wavelength_nm`, 2π/λ | nm | wavelength |
 //! | w | `w` | 1 | ω_i·n + ω_o·n, 2 at normal incidence and exitance |
 //! | f | | µm⁻¹ | spatial frequency; it leaves in the direction h = λ f |
-//! | a, h | [`PreparedSurface`] | 1, nm | amplitude and height |
+//! | a, h | [`PreparedHeights`] | 1, nm | amplitude and height |
 //! | N_x, N_y | `nx`, `ny` | 1 | samples of the transform, with padding |
 //!
 //! With n_x n_y samples of mean square 1 and zeros around them, |Σ a e^(−ikwh) e^(−2πi f·x)|²/(n_x n_y N_x N_y)
@@ -19,7 +19,7 @@ use rustfft::num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
 
 use super::DiffractionError;
-use super::preparation::{MOST_SAMPLES, PreparedSurface};
+use super::preparation::{MOST_SAMPLES, PreparedHeights};
 use super::resample::Cells;
 
 /// Power over cells of spatial frequency.
@@ -36,20 +36,20 @@ pub struct FarField {
 }
 
 /// Transforms for screens of one size.
-pub struct Transform {
+pub struct FarFieldTransform {
     nx: usize,
     ny: usize,
     along_x: Arc<dyn Fft<f64>>,
     along_y: Arc<dyn Fft<f64>>,
 }
 
-impl Transform {
+impl FarFieldTransform {
     /// For a surface padded to `padding` times its samples along each side that has more than one.
     ///
     /// # Errors
     /// [`DiffractionError::OutOfRange`] if padding is 0 or the padded surface is larger than
     /// [`MOST_SAMPLES`].
-    pub fn new(surface: &PreparedSurface, padding: usize) -> Result<Self, DiffractionError> {
+    pub fn new(surface: &PreparedHeights, padding: usize) -> Result<Self, DiffractionError> {
         let padded = |n: usize| if n > 1 { n.saturating_mul(padding) } else { 1 };
         let (nx, ny) = (padded(surface.nx), padded(surface.ny));
         if padding == 0 || nx.saturating_mul(ny) > MOST_SAMPLES {
@@ -69,7 +69,7 @@ impl Transform {
     ///
     /// The phase is −k w h: with exp(−2πi f·x) beside it, a slope s sends light to h = −w s, where a
     /// mirror of that slope does. With +k w h the pattern would be turned by 180°.
-    pub fn far_field(&self, surface: &PreparedSurface, wavelength_nm: f64, w: f64) -> FarField {
+    pub fn far_field(&self, surface: &PreparedHeights, wavelength_nm: f64, w: f64) -> FarField {
         let (nx, ny) = (self.nx, self.ny);
         let k = std::f64::consts::TAU / wavelength_nm;
         let mut rows = vec![Complex64::default(); nx * surface.ny];

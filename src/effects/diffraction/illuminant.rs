@@ -14,7 +14,7 @@ use crate::table::Table;
 
 /// The light that a table is made for.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Illuminant {
+pub enum IlluminantChoice {
     /// CIE D65: daylight.
     D65,
     /// CIE A: an incandescent lamp.
@@ -30,7 +30,7 @@ pub enum Illuminant {
     },
 }
 
-impl Illuminant {
+impl IlluminantChoice {
     /// `d65`, `a`, `e`, or the name of a CSV file with columns `wavelength [nm]` and `power [1]`.
     ///
     /// # Errors

@@ -24,7 +24,7 @@
 //! S_d(h) = |P(h/λ)|²/(A λ²), ∫∫ S_d dh = 1
 //!
 //! for a surface that reflects everything. Its colour channels are Σ_λ w_c(λ) S_d,λ(h), the weights of
-//! linear sRGB with Σ_λ w_c = 1 ([`Illuminant`]): they may be negative outside the gamut.
+//! linear sRGB with Σ_λ w_c = 1 ([`IlluminantChoice`]): they may be negative outside the gamut.
 //!
 //! The sign of the phase: stationary phase sends light to h = −w ∇z, where a facet mirrors it. Stam's
 //! (u, v, w) has the signs of both turned over, which is the same; +kwz beside e^(−2πi f·x) would turn the
@@ -71,13 +71,13 @@ mod surfaces;
 mod table;
 
 pub use error::DiffractionError;
-pub use far_field::{FarField, Transform};
-pub use illuminant::Illuminant;
+pub use far_field::{FarField, FarFieldTransform};
+pub use illuminant::IlluminantChoice;
 pub use orders::{
     Order, SinusoidAmplitude, fundamental, orders, predicted_power, sinusoid_amplitude,
 };
 pub use preparation::{
-    Detrend, MOST_SAMPLES, Missing, Preparation, PreparedSurface, Trend, USUAL, Window, prepared,
+    Detrend, MOST_SAMPLES, Missing, Preparation, PreparedHeights, Trend, USUAL, Window, prepared,
 };
 pub use reference::{MOST_ORDER, MOST_PHASE, rectangular_order_power, sinusoid_order_power};
 pub use resample::{Cells, gathered};

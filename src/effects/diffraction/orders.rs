@@ -13,8 +13,8 @@ use nalgebra::{Matrix3, Vector3};
 use rustfft::num_complex::Complex64;
 
 use super::DiffractionError;
-use super::far_field::{FarField, Transform};
-use super::preparation::PreparedSurface;
+use super::far_field::{FarField, FarFieldTransform};
+use super::preparation::PreparedHeights;
 use super::reference::sinusoid_order_power;
 use super::table::at_wavelength;
 use crate::effect::DomainError;
@@ -29,8 +29,8 @@ const FLAT_NM: f64 = 1e-6;
 /// pull the maximum.
 ///
 /// # Errors
-/// As [`Transform::new`].
-pub fn fundamental(surface: &PreparedSurface) -> Result<Option<[f64; 2]>, DiffractionError> {
+/// As [`FarFieldTransform::new`].
+pub fn fundamental(surface: &PreparedHeights) -> Result<Option<[f64; 2]>, DiffractionError> {
     let weighted: Vec<f64> =
         surface.height_nm.iter().zip(&surface.amplitude).map(|(h, a)| h * a).collect();
     let mean = statistics::sum(weighted.iter().copied())
@@ -43,11 +43,12 @@ pub fn fundamental(surface: &PreparedSurface) -> Result<Option<[f64; 2]>, Diffra
         return Ok(None);
     }
     // The first order of a screen so shallow that its phase is its height.
-    let shallow = PreparedSurface {
+    let shallow = PreparedHeights {
         height_nm: surface.height_nm.iter().map(|h| (h - mean) / largest * 1e-3).collect(),
         ..surface.clone()
     };
-    let field = Transform::new(&shallow, 1)?.far_field(&shallow, std::f64::consts::TAU, 1.0);
+    let field =
+        FarFieldTransform::new(&shallow, 1)?.far_field(&shallow, std::f64::consts::TAU, 1.0);
     let beyond_dc = |f: f64, pitch: f64| (f / pitch).abs();
     let mut best = (0.0, [0.0; 2]);
     for (y, row) in field.power.chunks(field.x.count).enumerate() {
@@ -70,7 +71,7 @@ pub fn fundamental(surface: &PreparedSurface) -> Result<Option<[f64; 2]>, Diffra
 
 /// Maximum of |Σ screen e^(−2πi f·x)|² near `start`, by parabolas along x and y in turn.
 fn refined(
-    surface: &PreparedSurface,
+    surface: &PreparedHeights,
     screen: &[f64],
     start: [f64; 2],
     pitch: [f64; 2],
@@ -134,7 +135,7 @@ pub struct SinusoidAmplitude {
 ///
 /// `None` if there is no line with more than six samples.
 pub fn sinusoid_amplitude(
-    surface: &PreparedSurface,
+    surface: &PreparedHeights,
     frequency: [f64; 2],
 ) -> Option<SinusoidAmplitude> {
     let along_x = frequency[0].abs() >= frequency[1].abs();

@@ -1,18 +1,18 @@
 //! The settings of the simulator.
 
-use crate::effect::simulator::Parameter;
+use crate::effect::simulator::Setting;
 
 const fn parameter(
     name: &'static str,
     unit: &'static str,
     default: &'static str,
     description: &'static str,
-) -> Parameter {
-    Parameter { name, unit, default, description }
+) -> Setting {
+    Setting { name, unit, default, description }
 }
 
 /// Everything that may be set. Where a default is empty it depends on the surface.
-pub(super) const PARAMETERS: &[Parameter] = &[
+pub(super) const PARAMETERS: &[Setting] = &[
     parameter(
         "surface",
         "",

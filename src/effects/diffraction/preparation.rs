@@ -66,7 +66,7 @@ pub struct Trend {
 
 /// Heights that are ready for a phase screen.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PreparedSurface {
+pub struct PreparedHeights {
     /// Samples along x.
     pub nx: usize,
     /// Samples along y.
@@ -106,7 +106,7 @@ const SETTLED_NM: f64 = 1e-3;
 pub fn prepared(
     map: &HeightMap,
     preparation: Preparation,
-) -> Result<PreparedSurface, DiffractionError> {
+) -> Result<PreparedHeights, DiffractionError> {
     let HeightMap { nx, ny, dx_um, dy_um, .. } = *map;
     let unusable = |reason: String| DiffractionError::unusable(&map.origin, reason);
     let expected = nx.saturating_mul(ny);
@@ -149,7 +149,7 @@ pub fn prepared(
     amplitude.iter_mut().for_each(|a| *a *= scale);
     let origin = map.origin.clone();
     let missing = expected - there;
-    Ok(PreparedSurface { nx, ny, dx_um, dy_um, height_nm, amplitude, removed, missing, origin })
+    Ok(PreparedHeights { nx, ny, dx_um, dy_um, height_nm, amplitude, removed, missing, origin })
 }
 
 /// Position of sample `i` from the centre of the patch, µm.

@@ -1,8 +1,8 @@
 //! Diffraction tables from settings: what `striae simulate diffraction` and renderers ask for.
 
-use super::illuminant::Illuminant;
+use super::illuminant::IlluminantChoice;
 use super::parameters::PARAMETERS;
-use super::preparation::{Detrend, Missing, Preparation, PreparedSurface, Window, prepared};
+use super::preparation::{Detrend, Missing, Preparation, PreparedHeights, Window, prepared};
 use super::surfaces::{
     CompactDisc, Grating, HolographicPaper, Patch, PixelLattice, Profile, compact_disc, grating,
     holographic_paper, pixel_lattice,
@@ -52,7 +52,7 @@ fn run(settings: &Settings, spectra: &Spectra) -> Result<Simulation, SimulationE
 /// What a table is made of.
 pub(super) enum Origin {
     /// Heights, as read or simulated.
-    Heights(HeightMap, PreparedSurface),
+    Heights(HeightMap, PreparedHeights),
     /// A pattern.
     Pattern(PatternPlacing),
 }
@@ -102,7 +102,7 @@ pub(super) fn shape(settings: &Settings) -> Result<TableShape, DiffractionError>
     })?;
     let rgb = settings.choice("channels", &[("rgb", true), ("spectral", false)])?;
     let channels = if rgb {
-        Channels::Rgb(Illuminant::named(settings.text("illuminant")?)?)
+        Channels::Rgb(IlluminantChoice::named(settings.text("illuminant")?)?)
     } else {
         Channels::Spectral
     };

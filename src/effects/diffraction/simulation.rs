@@ -1,15 +1,15 @@
 //! What a simulation says of its table: orders, energies, and what each step of the preparation did.
 
 use super::DiffractionError;
-use super::far_field::{FarField, Transform};
+use super::far_field::{FarField, FarFieldTransform};
 use super::orders::{fundamental, orders, predicted_power, sinusoid_amplitude};
 use super::preparation::{
-    Detrend, MOST_SAMPLES, Missing, Preparation, PreparedSurface, Window, prepared,
+    Detrend, MOST_SAMPLES, Missing, Preparation, PreparedHeights, Window, prepared,
 };
 use super::simulate::{Origin, padding, preparation, shape, w};
 use super::steps::{Step, changes};
 use super::table::DiffractionTable;
-use crate::document::{Cell, Table};
+use crate::document::{Cell, PrintedTable};
 use crate::effect::simulator::{Settings, Simulation};
 use crate::measured::height_map::HeightMap;
 
@@ -35,7 +35,7 @@ pub(super) fn described(
             let wavelength = settings.number("report_nm", 1.0, 1e5)?;
             let shape = shape(settings)?;
             let (size, extent) = (shape.size[0], shape.extent);
-            let transform = Transform::new(&surface, padding(settings)?)?;
+            let transform = FarFieldTransform::new(&surface, padding(settings)?)?;
             let field = transform.far_field(&surface, wavelength, w(settings)?);
             notes.push(sampling(&surface, &field, size, extent));
             let hann =
@@ -59,7 +59,7 @@ fn number(value: f64) -> Cell {
 }
 
 /// Shares of the power at the first, the middle and the last wavelength.
-fn energies(table: &DiffractionTable) -> Table {
+fn energies(table: &DiffractionTable) -> PrintedTable {
     let last = table.wavelengths_nm.len().saturating_sub(1);
     let mut at = vec![0, last / 2, last];
     at.dedup();
@@ -68,7 +68,7 @@ fn energies(table: &DiffractionTable) -> Table {
         let (wavelength, evanescent) = (*table.wavelengths_nm.get(i)?, *table.evanescent.get(i)?);
         Some([wavelength, total, inside, total - inside, evanescent].map(number).to_vec())
     };
-    Table::of_rows(
+    PrintedTable::of_rows(
         "Shares of the reflected power",
         [
             ("wavelength", "nm"),
@@ -81,7 +81,7 @@ fn energies(table: &DiffractionTable) -> Table {
     )
 }
 
-fn sampling(surface: &PreparedSurface, field: &FarField, size: usize, extent: f64) -> String {
+fn sampling(surface: &PreparedHeights, field: &FarField, size: usize, extent: f64) -> String {
     let wavelength_um = 1e-3 * field.wavelength_nm;
     let [cell_x, cell_y] = field.cells().map(|cells| cells.pitch);
     let reach = |d: f64| wavelength_um / (2.0 * d);
@@ -116,12 +116,12 @@ fn zero_order(field: &FarField, frequency: [f64; 2]) -> String {
 
 fn order_table(
     settings: &Settings,
-    surface: &PreparedSurface,
+    surface: &PreparedHeights,
     field: &FarField,
     frequency: [f64; 2],
     size: usize,
     extent: f64,
-) -> Result<(Vec<String>, Table), DiffractionError> {
+) -> Result<(Vec<String>, PrintedTable), DiffractionError> {
     let mut notes = vec![format!(
         "pitch of the heights: {:.4} µm, at {:.2}° from x",
         1.0 / frequency[0].hypot(frequency[1]),
@@ -167,7 +167,7 @@ fn order_table(
             number(order.power),
         ]);
     }
-    let table = Table::of_rows(
+    let table = PrintedTable::of_rows(
         format!("Orders at {} nm: m λ/d, and what the table has", field.wavelength_nm),
         [
             ("m", "1"),
@@ -187,7 +187,7 @@ fn order_table(
 
 fn steps<'a>(
     heights: &'a HeightMap,
-    surface: &PreparedSurface,
+    surface: &PreparedHeights,
     usual: Preparation,
     padding: usize,
 ) -> Vec<Step<'a>> {

@@ -1,10 +1,10 @@
 //! What each step of the preparation does to a table, as numbers.
 
 use super::DiffractionError;
-use super::far_field::{FarField, Transform};
+use super::far_field::{FarField, FarFieldTransform};
 use super::preparation::{Preparation, prepared};
 use super::table::at_wavelength;
-use crate::document::{Cell, Table};
+use crate::document::{Cell, PrintedTable};
 use crate::measured::height_map::HeightMap;
 
 /// Heights and their preparation, under a name.
@@ -38,7 +38,7 @@ pub struct StepEffect {
 /// The effect of every step on a table at one wavelength, against the first one.
 ///
 /// # Errors
-/// As [`prepared`] and [`Transform::new`].
+/// As [`prepared`] and [`FarFieldTransform::new`].
 pub fn step_effects(
     steps: &[Step<'_>],
     wavelength_nm: f64,
@@ -50,7 +50,7 @@ pub fn step_effects(
     let mut effects = Vec::new();
     for step in steps {
         let surface = prepared(step.heights, step.preparation)?;
-        let transform = Transform::new(&surface, step.padding)?;
+        let transform = FarFieldTransform::new(&surface, step.padding)?;
         let field = transform.far_field(&surface, wavelength_nm, w);
         let (texels, _) = at_wavelength(&field, [size, size], extent);
         let side = surface.nx as f64 * surface.dx_um;
@@ -106,7 +106,7 @@ pub(super) fn changes(
     w: f64,
     size: usize,
     extent: f64,
-) -> Result<Table, DiffractionError> {
+) -> Result<PrintedTable, DiffractionError> {
     let effects = step_effects(steps, wavelength_nm, w, size, extent)?;
     let rows = steps.iter().zip(&effects).map(|(step, effect)| {
         let [along_x, along_y] = effect.strongest;
@@ -116,7 +116,7 @@ pub(super) fn changes(
         row.extend(numbers.map(|value| Cell::number(value, 4)));
         row
     });
-    Ok(Table::of_rows(
+    Ok(PrintedTable::of_rows(
         format!(
             "What each step does to the table at {wavelength_nm} nm: relative L2 difference from the \
              first row, and the strongest order with its width at half height"

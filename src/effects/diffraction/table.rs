@@ -8,13 +8,13 @@
 use rayon::prelude::*;
 
 use super::DiffractionError;
-use super::far_field::{FarField, Transform};
-use super::illuminant::Illuminant;
-use super::preparation::PreparedSurface;
+use super::far_field::{FarField, FarFieldTransform};
+use super::illuminant::IlluminantChoice;
+use super::preparation::PreparedHeights;
 use super::resample::{Cells, gathered};
 use crate::measured::pattern::Pattern;
 use crate::measured::spectra::Spectra;
-use crate::table::{Axis, Channel, Grid, MAX_PIXEL_BYTES};
+use crate::table::{Axis, Grid, GridChannel, MAX_PIXEL_BYTES};
 
 /// Wavelengths that are held in memory at once.
 const BATCH: usize = 8;
@@ -25,7 +25,7 @@ pub const NORMAL: f64 = 2.0;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Channels {
     /// `R`, `G`, `B`: linear sRGB under a light that the environment gives its colour.
-    Rgb(Illuminant),
+    Rgb(IlluminantChoice),
     /// One per wavelength, `S_550` at 550 nm.
     Spectral,
 }
@@ -118,15 +118,15 @@ impl TableShape {
 ///
 /// # Errors
 /// [`DiffractionError`] for a shape or a padding outside its domain, and as
-/// [`Illuminant::srgb_weights`].
+/// [`IlluminantChoice::srgb_weights`].
 pub fn of_surface(
-    surface: &PreparedSurface,
+    surface: &PreparedHeights,
     shape: &TableShape,
     padding: usize,
     w: f64,
     spectra: &Spectra,
 ) -> Result<DiffractionTable, DiffractionError> {
-    let transform = Transform::new(surface, padding)?;
+    let transform = FarFieldTransform::new(surface, padding)?;
     let [x, y] = shape.axes();
     let share = |wavelength: f64| {
         let field = transform.far_field(surface, wavelength, w);
@@ -146,7 +146,7 @@ pub fn of_surface(
 ///
 /// # Errors
 /// [`DiffractionError`] for a pattern that is empty, dark or not finite, a placing or a shape outside
-/// its domain, and as [`Illuminant::srgb_weights`].
+/// its domain, and as [`IlluminantChoice::srgb_weights`].
 pub fn of_pattern(
     pattern: &Pattern,
     placing: PatternPlacing,
@@ -220,7 +220,7 @@ fn assembled(
     };
     let mut rgb = vec![vec![0.0; texels]; 3];
     let channel = |name: String, values: &[f64]| {
-        Channel::new(name, "sr^-1", values.iter().map(|p| (p / area) as f32).collect())
+        GridChannel::new(name, "sr^-1", values.iter().map(|p| (p / area) as f32).collect())
     };
     for (batch, wavelengths) in shape.wavelengths_nm.chunks(BATCH).enumerate() {
         let shares: Vec<Share> = wavelengths.par_iter().map(|w| share(*w)).collect();
@@ -250,7 +250,7 @@ fn assembled(
 
 /// Relative difference of two tables of one shape, in the L2 norm over all channels.
 pub fn relative_l2(table: &Grid, reference: &Grid) -> f64 {
-    let texels = |channels: &[Channel]| -> Vec<f64> {
+    let texels = |channels: &[GridChannel]| -> Vec<f64> {
         channels.iter().flat_map(|c| c.values.iter().map(|v| f64::from(*v))).collect()
     };
     let pairs = texels(&table.channels).into_iter().zip(texels(&reference.channels));

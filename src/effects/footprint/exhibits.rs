@@ -4,8 +4,8 @@ use super::line::{Line, Mean, errors};
 use super::pixels::{Camera, Footprint};
 use super::reference::{coverage, response};
 use super::regions::equal_ratios;
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Cell, Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Cell, Figure, PrintedTable, Section};
 use crate::effect::{Candidate, Candidates, ClaimError};
 use crate::numeric::statistics::percentile;
 
@@ -60,11 +60,11 @@ fn figure_five(candidates: &Candidates) -> Result<Section, ClaimError> {
         let offsets: Vec<f64> = (0..=120).map(|i| 0.05 * f64::from(i)).collect();
         let rows: Vec<_> = offsets.iter().map(|&s| [10_f64.sqrt(), s, 10.0]).collect();
         let circle = Line::new(mean, &rows)?;
-        let value = Axis::linear(label, "1");
-        let area = Axis::log("A_P/A_C", "1");
+        let value = PlotAxis::linear(label, "1");
+        let area = PlotAxis::log("A_P/A_C", "1");
         let mut at_centre = Plot::new(format!("{label} at s = 0"), area, value.clone())
             .series(Series::line("exact", pairs(&ratios, &centres.exact)).strong());
-        let offset = Axis::linear("offset s", "σ");
+        let offset = PlotAxis::linear("offset s", "σ");
         let mut over_offset = Plot::new(format!("{label} at A_P/A_C = 10"), offset, value)
             .series(Series::line("exact", pairs(&offsets, &circle.exact)).strong());
         for fit in fits {
@@ -101,7 +101,7 @@ fn against_half_extent_and_tilt(candidates: &Candidates) -> Result<Section, Clai
         .collect();
     let against = |stem, caption, title, x, over, footprints, mean, fits: &[&str]| {
         let lines = Line::all(mean, footprints, 96)?;
-        let mut plot = Plot::new(title, x, Axis::log("relative L2 error", "1"));
+        let mut plot = Plot::new(title, x, PlotAxis::log("relative L2 error", "1"));
         for fit in fits {
             let series = Series::line(*fit, pairs(over, &errors(named(candidates, fit)?, &lines)?));
             let strong = fit.ends_with("soft_chord");
@@ -111,7 +111,7 @@ fn against_half_extent_and_tilt(candidates: &Candidates) -> Result<Section, Clai
     };
     let circular = |stem, title, mean, fits| {
         let caption = "Over the offsets of a circular footprint, to 4.5σ past its rim.";
-        against(stem, caption, title, Axis::log("half-extent h", "σ"), &h, &circles, mean, fits)
+        against(stem, caption, title, PlotAxis::log("half-extent h", "σ"), &h, &circles, mean, fits)
     };
     Ok(Section::new("Error against half-extent and tilt")
         .paragraph(
@@ -124,7 +124,7 @@ fn against_half_extent_and_tilt(candidates: &Candidates) -> Result<Section, Clai
             "footprint-error-tilt",
             "A footprint of 0.7σ across the scratch, tilted along it: h stays, A_P grows.",
             "Response, tilted",
-            Axis::linear("tilt", "°"),
+            PlotAxis::linear("tilt", "°"),
             &tilts,
             &tilted,
             response,
@@ -153,5 +153,5 @@ fn cameras(candidates: &Candidates) -> Result<Section, ClaimError> {
             "300 pixels as in the region `camera`, other draws: relative L2 error over the offsets \
              of each.",
         )
-        .block(Table::of_rows("Relative L2 error per pixel", columns, rows)))
+        .block(PrintedTable::of_rows("Relative L2 error per pixel", columns, rows)))
 }

@@ -10,7 +10,7 @@
 //! | F₀ | `f_normal` | reflectance at μ = 1 |
 //! | F₈₂ | `f_edge` | reflectance at μ = 1/7 (82°) |
 //!
-//! The exact reflectance is in [`reference`]. A renderer knows F₀ per colour channel and wants the
+//! The exact reflectance is in [`mod@reference`]. A renderer knows F₀ per colour channel and wants the
 //! rest of the curve for a few operations: every form here takes μ and F₀ and is 1 at grazing.
 //!
 //! # The shape of the curve

@@ -8,7 +8,7 @@ use super::exhibits::{
     DepthPhase, EnergyStudy, EnsembleStudy, Sampling, energy_ratio, response_errors,
     side_lobe_energy,
 };
-use super::surface::{Coherence, Directions, Scratch, mirror_amplitude};
+use super::surface::{Coherence, Directions, StraightScratch, mirror_amplitude};
 use crate::effect::claim::REPORT;
 use crate::effect::{Candidates, Claim, ClaimError, Found};
 use crate::numeric::statistics::{percentile, relative_l2};
@@ -151,7 +151,7 @@ fn blend(_: &Candidates) -> Result<Found, ClaimError> {
     let with = |base| study.of(Model { base, ..PUBLISHED });
     let one = |depth: f64| {
         // W = σ/20 at s_b = 0.
-        let scratch = Scratch::infinite(0.0, 3.0, depth);
+        let scratch = StraightScratch::infinite(0.0, 3.0, depth);
         1.0 - scratch.density(60.0) + scratch.reflected_share(LIGHT, 2.0)
     };
     let found = format!(
@@ -176,7 +176,7 @@ fn density(_: &Candidates) -> Result<Found, ClaimError> {
     let step = 1.0;
     let (mut density, mut share) = (0.0, 0.0);
     for i in -480..=480 {
-        let scratch = Scratch::infinite(step * f64::from(i), 3.0, 0.1);
+        let scratch = StraightScratch::infinite(step * f64::from(i), 3.0, 0.1);
         density += step * scratch.density(LIGHT.sigma_um);
         share += step * scratch.light_share(LIGHT.sigma_um);
     }
@@ -247,8 +247,8 @@ fn squared_factors(_: &Candidates) -> Result<Found, ClaimError> {
 
 fn density_of_ends(_: &Candidates) -> Result<Found, ClaimError> {
     let ratio = |begin_um: f64, end_um: f64| {
-        let whole = Scratch::infinite(0.0, 1.0, 1.0);
-        whole.density(1.0) / Scratch { begin_um, end_um, ..whole }.density(1.0)
+        let whole = StraightScratch::infinite(0.0, 1.0, 1.0);
+        whole.density(1.0) / StraightScratch { begin_um, end_um, ..whole }.density(1.0)
     };
     let found = format!(
         "over the exact integral: {:.4} for a scratch of 6 sigma, {:.3} for 4 sigma, {:.2} for 2 sigma, {:.2} for one \

@@ -7,7 +7,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
 use super::amplitude::{along_factor, depth_factor};
-use super::surface::{Coherence, Directions, Scratch, mirror_amplitude};
+use super::surface::{Coherence, Directions, StraightScratch, mirror_amplitude};
 
 /// Largest offset of a scratch from the shaded point, over σ: the intensity window is 1e-4 there.
 const REACH: f64 = 3.0;
@@ -28,7 +28,7 @@ pub(super) struct Recipe {
 }
 
 /// The scratches of a recipe; the centres lie within reach along and across them.
-pub(super) fn scratches(recipe: Recipe, seed: u64) -> Vec<Scratch> {
+pub(super) fn scratches(recipe: Recipe, seed: u64) -> Vec<StraightScratch> {
     let mut rng = ChaCha12Rng::seed_from_u64(seed);
     let count = (REACH * recipe.per_coherence_area).round() as usize;
     let [shortest, longest] = recipe.length;
@@ -37,7 +37,7 @@ pub(super) fn scratches(recipe: Recipe, seed: u64) -> Vec<Scratch> {
         .map(|_| {
             let direction_rad = recipe.spread_rad * (rng.random::<f64>() - 0.5);
             let half = 0.5 * recipe.sigma_um * shortest * (longest / shortest).powf(rng.random());
-            Scratch {
+            StraightScratch {
                 position_um: [rng.random_range(-reach..reach), rng.random_range(-reach..reach)],
                 direction_rad,
                 begin_um: -half,
@@ -128,7 +128,7 @@ struct Parts {
 /// An ensemble under one light: its densities, and its amplitudes in any direction.
 #[derive(Debug)]
 pub(super) struct Lit<'a> {
-    scratches: &'a [Scratch],
+    scratches: &'a [StraightScratch],
     light: Coherence,
     /// ρ of each blend, by whether the scratches end; the depth phase is the mirror direction's.
     shares: [[f64; 3]; 3],
@@ -136,12 +136,16 @@ pub(super) struct Lit<'a> {
 
 impl<'a> Lit<'a> {
     /// `mirror_mu_sum`: γ + γᵢ in the mirror direction.
-    pub(super) fn new(scratches: &'a [Scratch], light: Coherence, mirror_mu_sum: f64) -> Self {
+    pub(super) fn new(
+        scratches: &'a [StraightScratch],
+        light: Coherence,
+        mirror_mu_sum: f64,
+    ) -> Self {
         let shares = [Ends::Finite, Ends::Infinite, Ends::Matched].map(|ends| {
-            let of = |share: &dyn Fn(Scratch) -> f64| -> f64 {
+            let of = |share: &dyn Fn(StraightScratch) -> f64| -> f64 {
                 scratches.iter().map(|&scratch| share(with_ends(scratch, ends))).sum()
             };
-            let depth = |scratch: Scratch| {
+            let depth = |scratch: StraightScratch| {
                 depth_factor(scratch.depth_um, light.wavelength_um, mirror_mu_sum).norm_sqr()
             };
             [
@@ -226,7 +230,7 @@ fn matched_factor(q: f64, begin: f64, end: f64) -> f64 {
     peak * core_math::exp(-0.5 * narrowing * narrowing)
 }
 
-fn with_ends(scratch: Scratch, ends: Ends) -> Scratch {
+fn with_ends(scratch: StraightScratch, ends: Ends) -> StraightScratch {
     match ends {
         Ends::Finite | Ends::Matched => scratch,
         Ends::Infinite => scratch.unbounded(),

@@ -33,8 +33,8 @@
 //! | s_b | `offset_um` | µm | offset of the scratch from the shaded point |
 //! | s_t + l₁, s_t + l₂ | `begin_um`, `end_um` | µm | its ends along itself, from the shaded point |
 //! | γ + γᵢ | `mu_sum` | 1 | sum of the cosines of incidence and exitance |
-//! | ρ_c | [`Scratch::density`] | 1 | area density, eq. 17 |
-//! | a | [`Scratch::light_share`] | 1 | share of the light that falls into the scratch |
+//! | ρ_c | [`StraightScratch::density`] | 1 | area density, eq. 17 |
+//! | a | [`StraightScratch::light_share`] | 1 | share of the light that falls into the scratch |
 //!
 //! Reciprocity: everything depends on ω_i + ω_o alone, the depth phase through γ + γᵢ; exchanging the
 //! directions changes nothing. The form `mirror_depth` gives that up (2γ in place of γ + γᵢ).
@@ -51,7 +51,8 @@ mod surface;
 
 pub use amplitude::{along_factor, depth_factor, sinc_pi};
 pub use surface::{
-    Coherence, Directions, Scratch, coherent_amplitude, mirror_amplitude, superposed_svbrdf, svbrdf,
+    Coherence, Directions, StraightScratch, coherent_amplitude, mirror_amplitude,
+    superposed_svbrdf, svbrdf,
 };
 
 use include_dir::{Dir, include_dir};

@@ -1,6 +1,6 @@
 //! Reflectances as scalars, with their domains: what `striae eval` computes and forms are judged by.
 
-use super::surface::{Coherence, Directions, Scratch, coherent_amplitude, svbrdf};
+use super::surface::{Coherence, Directions, StraightScratch, coherent_amplitude, svbrdf};
 use crate::effect::{DomainError, Evaluate, Quantity, Reference};
 
 const fn quantity(name: &'static str, unit: &'static str, domain: &'static str) -> Quantity {
@@ -116,9 +116,14 @@ pub(super) const DENSITY: Reference = Reference {
 };
 
 /// A scratch along the first axis, in whose frame ξ is then given.
-fn along_first_axis(width_um: f64, depth_um: f64, offset_um: f64, ends: [f64; 2]) -> Scratch {
+fn along_first_axis(
+    width_um: f64,
+    depth_um: f64,
+    offset_um: f64,
+    ends: [f64; 2],
+) -> StraightScratch {
     let [begin_um, end_um] = ends;
-    Scratch {
+    StraightScratch {
         position_um: [0.0, offset_um],
         direction_rad: 0.0,
         begin_um,
@@ -128,7 +133,7 @@ fn along_first_axis(width_um: f64, depth_um: f64, offset_um: f64, ends: [f64; 2]
     }
 }
 
-fn one(arguments: &[f64]) -> Result<(Scratch, Coherence, Directions), DomainError> {
+fn one(arguments: &[f64]) -> Result<(StraightScratch, Coherence, Directions), DomainError> {
     let [width_um, depth_um, wavelength_um, sigma_um, along, across, offset_um, begin, end, mu_sum] =
         values(arguments, ONE)?;
     Ok((
@@ -138,7 +143,7 @@ fn one(arguments: &[f64]) -> Result<(Scratch, Coherence, Directions), DomainErro
     ))
 }
 
-fn pair(arguments: &[f64]) -> Result<([Scratch; 2], Coherence, Directions), DomainError> {
+fn pair(arguments: &[f64]) -> Result<([StraightScratch; 2], Coherence, Directions), DomainError> {
     let [
         width_um,
         depth_um,
@@ -155,7 +160,7 @@ fn pair(arguments: &[f64]) -> Result<([Scratch; 2], Coherence, Directions), Doma
     ] = values(arguments, PAIR_ARGUMENTS)?;
     let first = along_first_axis(width_um, depth_um, offset_um, [0.0; 2]).unbounded();
     let (sin, cos) = core_math::sincos(turn);
-    let second = Scratch {
+    let second = StraightScratch {
         position_um: [-offset * sin, offset * cos],
         direction_rad: turn,
         width_um: width,

@@ -4,7 +4,7 @@
 //! Amplitudes are over √π σλ, so that a squared magnitude is a reflectance: the mirror alone has
 //! 2√π (σ/λ) exp(−σ²k²|ξ|²/2), a scratch √2 (W/λ) sinc(πWξ₂/λ) 𝒟 η/(√(2π)σ).
 //! The other two simplifications need no function: an infinite scratch has infinite ends
-//! ([`Scratch::unbounded`]), and small angles have [`Directions::mu_sum`] = 2
+//! ([`StraightScratch::unbounded`]), and small angles have [`Directions::mu_sum`] = 2
 //! ([`Directions::at_small_angles`]).
 
 use std::f64::consts::{PI, SQRT_2};
@@ -15,7 +15,7 @@ use super::amplitude::{along_factor, depth_factor, sinc_pi};
 
 /// A straight scratch with a rectangular cross-section.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scratch {
+pub struct StraightScratch {
     /// A point on its centre line, from the shaded point, µm.
     pub position_um: [f64; 2],
     /// Direction of its tangent, counterclockwise from the first axis of the surface, rad.
@@ -72,7 +72,7 @@ impl Directions {
     }
 }
 
-impl Scratch {
+impl StraightScratch {
     /// A scratch without ends along the first axis of the surface, at `offset_um` from the shaded point.
     pub(super) fn infinite(offset_um: f64, width_um: f64, depth_um: f64) -> Self {
         Self {
@@ -163,7 +163,7 @@ pub fn mirror_amplitude(light: Coherence, directions: Directions) -> f64 {
 
 /// Coherent sum 𝒮 over scratches, over √π σλ.
 pub fn coherent_amplitude(
-    scratches: &[Scratch],
+    scratches: &[StraightScratch],
     light: Coherence,
     directions: Directions,
 ) -> Complex<f64> {
@@ -171,7 +171,7 @@ pub fn coherent_amplitude(
 }
 
 /// SVBRDF f_r = |ℬ − 𝒮|²/(πσ²λ²) of a scratched mirror, eq. 1, 1/sr.
-pub fn svbrdf(scratches: &[Scratch], light: Coherence, directions: Directions) -> f64 {
+pub fn svbrdf(scratches: &[StraightScratch], light: Coherence, directions: Directions) -> f64 {
     let scratched = coherent_amplitude(scratches, light, directions);
     (mirror_amplitude(light, directions) - scratched).norm_sqr()
 }
@@ -179,7 +179,7 @@ pub fn svbrdf(scratches: &[Scratch], light: Coherence, directions: Directions) -
 /// The SVBRDF without interference of scratches with one another (eq. 7) or with the mirror (eq. 6),
 /// the mirror weighted by `mirror_share`, 1/sr.
 pub fn superposed_svbrdf(
-    scratches: &[Scratch],
+    scratches: &[StraightScratch],
     light: Coherence,
     directions: Directions,
     mirror_share: f64,

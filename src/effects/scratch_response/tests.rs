@@ -137,7 +137,7 @@ fn exchange_of_light_and_viewer_changes_nothing() {
 #[test]
 fn parts_of_a_scratch_add_up() {
     let light = Coherence { wavelength_um: 0.55, sigma_um: 60.0 };
-    let whole = Scratch {
+    let whole = StraightScratch {
         position_um: [7.0, -20.0],
         direction_rad: 0.4,
         begin_um: -200.0,
@@ -148,8 +148,8 @@ fn parts_of_a_scratch_add_up() {
     for cut in [-180.0, -30.0, 0.0, 1e-3, 55.0, 400.0] {
         for xi in [[0.0, 0.0], [0.01, 0.03], [0.001, -0.002], [0.4, 0.3]] {
             let directions = Directions { xi, mu_sum: 1.7 };
-            let parts = Scratch { end_um: cut, ..whole }.amplitude(light, directions)
-                + Scratch { begin_um: cut, ..whole }.amplitude(light, directions);
+            let parts = StraightScratch { end_um: cut, ..whole }.amplitude(light, directions)
+                + StraightScratch { begin_um: cut, ..whole }.amplitude(light, directions);
             let error = (parts - whole.amplitude(light, directions)).norm();
             // Measured 4e-16 of the peak, √2 · 2 W/λ = 15.
             assert!(error < 1e-13, "{cut} {xi:?}: {error:e}");
@@ -161,7 +161,7 @@ fn parts_of_a_scratch_add_up() {
 #[test]
 fn superposition_without_interference_exceeds_one_by_the_shares() {
     let light = Coherence { wavelength_um: 0.55, sigma_um: 10.0 };
-    let scratch = Scratch::infinite(4.0, 1.0, 0.1);
+    let scratch = StraightScratch::infinite(4.0, 1.0, 0.1);
     let unit = ensemble::mirror_width(light);
     let (mut full, mut added) = (0.0, 0.0);
     for i in -16..=16 {

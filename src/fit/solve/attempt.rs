@@ -9,7 +9,7 @@ use crate::form::FormError;
 
 /// How a solver ended, before rank and bounds are looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
+pub enum Termination {
     /// A criterion on the gradient or the optimality holds.
     Converged,
     /// No progress, and no criterion holds.
@@ -28,7 +28,7 @@ pub struct Attempt {
     /// The cost there.
     pub cost: f64,
     /// How it ended.
-    pub ending: Ending,
+    pub termination: Termination,
     /// Iterations.
     pub iterations: u64,
 }
@@ -48,7 +48,7 @@ const REMOVABLE: f64 = 1e-11;
 const REMOVABLE_FROM_COST: f64 = 1e-8;
 
 impl Attempt {
-    /// The best point that `problem` has seen, with the ending that its first-order optimality
+    /// The best point that `problem` has seen, with the termination that its first-order optimality
     /// allows: a solver's own word is not taken for it.
     pub(super) fn judged(
         problem: &Problem,
@@ -82,7 +82,7 @@ impl Attempt {
             return Ok(Self {
                 variables: start.clone(),
                 cost: f64::NAN,
-                ending: Ending::NonFinite,
+                termination: Termination::NonFinite,
                 iterations,
             });
         };
@@ -91,28 +91,28 @@ impl Attempt {
                 || relative_offset(residuals, jacobian) <= offset
         };
         let (residuals, jacobian) = problem.linearise(&best.variables)?;
-        let judge = |ending| Self {
+        let judge = |termination| Self {
             variables: best.variables.clone(),
             cost: best.cost,
-            ending,
+            termination,
             iterations,
         };
         if !jacobian.iter().all(|x| x.is_finite()) {
-            return Ok(judge(Ending::Stalled));
+            return Ok(judge(Termination::Stalled));
         }
         if optimal(&residuals, &jacobian) {
-            return Ok(judge(Ending::Converged));
+            return Ok(judge(Termination::Converged));
         }
         if exhausted {
-            return Ok(judge(Ending::IterationLimit));
+            return Ok(judge(Termination::IterationLimit));
         }
         if problem.loss() != Loss::Minimax
             && let Some(polished) = polish(problem, &best, residuals, jacobian, optimal)?
         {
             let Best { variables, cost } = polished;
-            return Ok(Self { variables, cost, ending: Ending::Converged, iterations });
+            return Ok(Self { variables, cost, termination: Termination::Converged, iterations });
         }
-        Ok(judge(Ending::Stalled))
+        Ok(judge(Termination::Stalled))
     }
 }
 

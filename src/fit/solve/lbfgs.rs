@@ -5,7 +5,7 @@ use argmin::solver::linesearch::MoreThuenteLineSearch;
 use argmin::solver::quasinewton::LBFGS;
 use nalgebra::DVector;
 
-use super::attempt::{Attempt, Ending};
+use super::attempt::{Attempt, Termination};
 use super::scaled::{Scaled, give_up};
 use crate::fit::problem::Problem;
 use crate::form::FormError;
@@ -44,7 +44,7 @@ pub(super) fn solve(
         iterations = iterations.min(max_iterations);
         let judged = Attempt::judged(problem, start, iterations, iterations >= max_iterations)?;
         at.copy_from(&judged.variables);
-        let go_on = judged.ending == Ending::Stalled && judged.cost < before;
+        let go_on = judged.termination == Termination::Stalled && judged.cost < before;
         attempt = Some(judged);
         if !go_on {
             break;

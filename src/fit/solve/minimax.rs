@@ -12,7 +12,7 @@ use argmin::core::{
 };
 use nalgebra::{DMatrix, DVector};
 
-use super::attempt::{Attempt, Ending};
+use super::attempt::{Attempt, Termination};
 use super::chebyshev;
 use super::levenberg_marquardt;
 use super::scaled::give_up;
@@ -142,10 +142,10 @@ pub(super) fn solve(
         }
     };
     let mut attempt = Attempt::judged(problem, start, iterations, exhausted)?;
-    attempt.ending = match (converged, exhausted) {
-        (true, _) => Ending::Converged,
-        (false, true) => Ending::IterationLimit,
-        (false, false) => Ending::Stalled,
+    attempt.termination = match (converged, exhausted) {
+        (true, _) => Termination::Converged,
+        (false, true) => Termination::IterationLimit,
+        (false, false) => Termination::Stalled,
     };
     Ok(attempt)
 }
@@ -167,7 +167,7 @@ fn continuation(
         let attempt = levenberg_marquardt::solve(&smooth, &at, budget)?;
         problem.count(smooth.evaluations());
         iterations += attempt.iterations;
-        if attempt.ending == Ending::NonFinite {
+        if attempt.termination == Termination::NonFinite {
             break;
         }
         at = attempt.variables;

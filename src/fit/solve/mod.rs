@@ -5,7 +5,7 @@
 //! - Levenberg–Marquardt for least squares, relative and Huber losses (Huber through
 //!   [`crate::fit::loss::Loss::pseudo`]); if that does not converge, the trust region and then
 //!   Gauss–Newton from the same start, of which the lowest cost is kept;
-//! - the continuation and exchange of [`minimax`] for the minimax loss.
+//! - the continuation and exchange of `minimax` for the minimax loss.
 //!
 //! A constant that ends on a bound is pinned there and the others are fitted again: at a bound the
 //! transformation is flat, and a solver approaches it more and more slowly. A fit that stalls next
@@ -25,7 +25,7 @@ mod nelder_mead;
 mod scaled;
 mod trust_region;
 
-pub use attempt::{Attempt, Ending};
+pub use attempt::{Attempt, Termination};
 pub use multi_start::starts;
 
 use super::bounds::Transform;
@@ -95,7 +95,7 @@ pub struct Solution {
     /// Their cost; NaN if the form is not finite at the start.
     pub cost: f64,
     /// How the solver ended.
-    pub ending: Ending,
+    pub termination: Termination,
     /// Iterations of the solver that won.
     pub iterations: u64,
     /// Evaluations over all points, of every solver that was tried.
@@ -126,18 +126,18 @@ pub fn solve_from(
     let solution = Solution {
         constants,
         cost: attempt.cost,
-        ending: attempt.ending,
+        termination: attempt.termination,
         iterations: attempt.iterations,
         evaluations: problem.evaluations(),
         at_bound: Vec::new(),
         solver,
     };
-    if solution.ending == Ending::NonFinite {
+    if solution.termination == Termination::NonFinite {
         return Ok(solution);
     }
     let solution = pin_to_bounds(problem, solution, kind, max_iterations)?;
     let bounded = problem.transforms().iter().any(|t| *t != Transform::Identity);
-    if bounded && solution.ending == Ending::Stalled && solution.at_bound.is_empty() {
+    if bounded && solution.termination == Termination::Stalled && solution.at_bound.is_empty() {
         return finish_unbounded(problem, solution, max_iterations);
     }
     Ok(solution)
@@ -159,10 +159,10 @@ fn finish_unbounded(
     let constants = rest.constants(&attempt.variables);
     let evaluations = stalled.evaluations + rest.evaluations();
     let inside = problem.transforms().iter().zip(&constants).all(|(t, c)| t.contains(*c));
-    if inside && attempt.ending == Ending::Converged && attempt.cost <= stalled.cost {
+    if inside && attempt.termination == Termination::Converged && attempt.cost <= stalled.cost {
         let iterations = stalled.iterations + attempt.iterations;
-        let (cost, ending) = (attempt.cost, attempt.ending);
-        return Ok(Solution { constants, cost, ending, iterations, evaluations, ..stalled });
+        let (cost, termination) = (attempt.cost, attempt.termination);
+        return Ok(Solution { constants, cost, termination, iterations, evaluations, ..stalled });
     }
     Ok(Solution { evaluations, ..stalled })
 }
@@ -173,7 +173,7 @@ fn evaluated(problem: &Problem) -> Result<Solution, FormError> {
     Ok(Solution {
         constants: problem.constants(&problem.start()),
         cost,
-        ending: if cost.is_finite() { Ending::Converged } else { Ending::NonFinite },
+        termination: if cost.is_finite() { Termination::Converged } else { Termination::NonFinite },
         iterations: 0,
         evaluations: problem.evaluations(),
         at_bound: Vec::new(),
@@ -201,20 +201,20 @@ fn pin_to_bounds(
         return Ok(free);
     }
     let rest = problem.pinned(constants, &pinned);
-    let (constants, cost, ending, iterations) = if rest.variables() == 0 {
+    let (constants, cost, termination, iterations) = if rest.variables() == 0 {
         let constants = rest.constants(&rest.start());
-        (constants, rest.cost(&rest.start())?, Ending::Converged, 0)
+        (constants, rest.cost(&rest.start())?, Termination::Converged, 0)
     } else {
         let kind = if kind == SolverKind::Brent { SolverKind::Auto } else { kind };
         let (attempt, _) = attempt(&rest, kind, max_iterations)?;
-        (rest.constants(&attempt.variables), attempt.cost, attempt.ending, attempt.iterations)
+        (rest.constants(&attempt.variables), attempt.cost, attempt.termination, attempt.iterations)
     };
     let evaluations = free.evaluations + rest.evaluations();
     if cost <= free.cost * (1.0 + 1e-9) {
         let iterations = free.iterations + iterations;
         let solver = free.solver;
         let at_bound = pinned;
-        Ok(Solution { constants, cost, ending, iterations, evaluations, at_bound, solver })
+        Ok(Solution { constants, cost, termination, iterations, evaluations, at_bound, solver })
     } else {
         Ok(Solution { evaluations, ..free })
     }
@@ -255,14 +255,16 @@ fn automatic(problem: &Problem, max_iterations: u64) -> Result<(Attempt, String)
         (gauss_newton::solve, "gauss_newton (auto: levenberg_marquardt did not converge)"),
     ];
     for (solve, why) in others {
-        if matches!(best.ending, Ending::Converged | Ending::NonFinite) {
+        if matches!(best.termination, Termination::Converged | Termination::NonFinite) {
             break;
         }
         // A problem remembers its best point: a fresh one, so that each solver is judged by its own.
         let fresh = problem.fresh();
         let other = solve(&fresh, &start, max_iterations)?;
         problem.count(fresh.evaluations());
-        if other.cost < best.cost || other.ending == Ending::Converged && other.cost <= best.cost {
+        if other.cost < best.cost
+            || other.termination == Termination::Converged && other.cost <= best.cost
+        {
             (best, solver) = (other, why);
         }
     }

@@ -4,7 +4,7 @@ use argmin::core::{Executor, IterState, State};
 use argmin::solver::neldermead::NelderMead;
 use nalgebra::DVector;
 
-use super::attempt::{Attempt, Ending};
+use super::attempt::{Attempt, Termination};
 use super::scaled::{Scaled, give_up};
 use crate::fit::loss::Loss;
 use crate::fit::problem::Problem;
@@ -52,8 +52,8 @@ pub(super) fn solve(
     let mut attempt = Attempt::judged_loosely(problem, start, iterations, iterations >= budget)?;
     // A simplex that has closed says nothing about a gradient; under a loss that is not smooth no
     // criterion holds, and the fit may not call itself converged.
-    if problem.loss() == Loss::Minimax && attempt.ending == Ending::Converged {
-        attempt.ending = Ending::Stalled;
+    if problem.loss() == Loss::Minimax && attempt.termination == Termination::Converged {
+        attempt.termination = Termination::Stalled;
     }
     Ok(attempt)
 }

@@ -8,7 +8,7 @@ use argmin::core::{Executor, IterState, State};
 use argmin::solver::trustregion::{Steihaug, TrustRegion};
 use nalgebra::{DMatrix, DVector};
 
-use super::attempt::{Attempt, Ending};
+use super::attempt::{Attempt, Termination};
 use super::scaled::{Scaled, give_up};
 use crate::fit::problem::Problem;
 use crate::form::FormError;
@@ -30,7 +30,7 @@ pub(super) fn solve(
     let mut iterations = round(problem, first, max_iterations.min(8 * ROUND))?;
     let mut attempt = Attempt::judged(problem, start, iterations, iterations >= max_iterations)?;
     for _ in 0..ROUNDS {
-        if attempt.ending != Ending::Stalled || iterations >= max_iterations {
+        if attempt.termination != Termination::Stalled || iterations >= max_iterations {
             break;
         }
         let before = attempt.cost;

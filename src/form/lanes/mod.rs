@@ -1,6 +1,6 @@
 //! Lanes: a compiled form run over many points at once.
 //!
-//! A chunk of [`LANES`] points runs through the program together, one instruction at a time, so
+//! A chunk of `LANES` points runs through the program together, one instruction at a time, so
 //! that decoding an instruction costs little and its arithmetic uses the processor's vectors.
 //! Where control flow diverges, execution masks say for which lanes a store takes effect; a block
 //! that no lane enters is skipped.

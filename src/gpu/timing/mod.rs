@@ -98,12 +98,12 @@ pub struct Timing {
     /// Name, from [`TimedForm::name`].
     pub name: String,
     /// The cost, or why it is not known.
-    pub cost: Measured<Measurement>,
+    pub cost: Measured<TimingFigures>,
 }
 
 /// Figures over the rounds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Measurement {
+pub struct TimingFigures {
     /// Whose clock.
     pub clock: Clock,
     /// Number of rounds that were run.
@@ -126,7 +126,7 @@ pub struct Measurement {
 /// A form that does not compile, needs longer than [`TimingOptions::compile_limit_s`] for it, or
 /// whose inputs do not match, is not measured, with the reason; the others are. What a driver has
 /// begun to compile cannot be called off and goes on in the background until the process ends.
-/// Without timestamps on the device the host's clock is used, and [`Measurement::clock`] says so.
+/// Without timestamps on the device the host's clock is used, and [`TimingFigures::clock`] says so.
 ///
 /// # Errors
 /// [`GpuError`] if the device fails: lost, out of memory, not finished in time.
@@ -222,7 +222,7 @@ impl Bench {
         rounds: &[Vec<f64>],
         baseline: Option<&[f64]>,
         clock: Clock,
-    ) -> Measured<Measurement> {
+    ) -> Measured<TimingFigures> {
         let net = place.net(rounds);
         let empty: Vec<f64> =
             rounds.iter().filter_map(|round| round.get(place.empty).copied()).collect();
@@ -230,7 +230,7 @@ impl Bench {
             let reason = "the device's timestamps do not advance";
             return Measured::NotMeasured(reason.to_owned());
         };
-        Measured::Value(Measurement {
+        Measured::Value(TimingFigures {
             clock,
             rounds: rounds.len(),
             evaluations: self.items.get(place.own).map_or(0, Item::evaluations),

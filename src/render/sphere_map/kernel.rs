@@ -1,7 +1,7 @@
 //! A diffraction table over the two angles of the passes.
 
 use crate::factor::{Alignment, LowRank};
-use crate::table::{Axis, Channel, Edge, Grid, centres};
+use crate::table::{Axis, Edge, Grid, GridChannel, centres};
 
 use super::Taps;
 
@@ -28,7 +28,7 @@ impl AngularKernel {
             Axis::new(name, "rad", edges, of.count)
         };
         let (x, y) = (axis("s_x", grid.x()), axis("s_y", grid.y()));
-        let channels = CHANNELS.map(|name| Channel::new(name, "1", Vec::new()));
+        let channels = CHANNELS.map(|name| GridChannel::new(name, "1", Vec::new()));
         let axes = vec![x.clone(), y.clone()];
         let mut kernel = Self {
             grid: Grid { axes, channels: channels.into(), origin: grid.origin.clone() },

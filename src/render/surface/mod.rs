@@ -26,7 +26,7 @@ use super::shading::{Columns, Details, Moved, Sampler, Shader, Shading};
 use super::sphere_map::{AzimuthalOperator, SphereMap, Taps, lookup};
 use super::times::TimedPass;
 use super::view::{Camera, Projection};
-use crate::document::{Block, Cell, Column, Table};
+use crate::document::{Block, Cell, PrintedColumn, PrintedTable};
 use crate::gpu::TimingOptions;
 use crate::measured::environment::Environment;
 use crate::measured::spectra::Spectra;
@@ -305,14 +305,14 @@ impl Shading for Surface {
         let albedo = self.kernels.angular.albedo();
         let directions_deg = self.kernels.angular.directions.map(|d| d[1].atan2(d[0]).to_degrees());
         let ([first, second], [r, g, b]) = (directions_deg, albedo);
-        let table = Table::over(
+        let table = PrintedTable::over(
             "What n = ω_o = r_v costs in the first frame: the convolution with the whole table against \
              eq. 3 at 24 azimuths per angle of incidence, on a plane.",
             &by_angle,
         )
-        .column(Column::number("incidence", "°"), |of| Cell::number(of.angle_deg, 3))
-        .column(Column::number("relative RMS", "1"), |of| Cell::number(of.relative_rms, 3))
-        .column(Column::number("mean over that of eq. 3", "1"), |of| {
+        .column(PrintedColumn::number("incidence", "°"), |of| Cell::number(of.angle_deg, 3))
+        .column(PrintedColumn::number("relative RMS", "1"), |of| Cell::number(of.relative_rms, 3))
+        .column(PrintedColumn::number("mean over that of eq. 3", "1"), |of| {
             Cell::number(of.mean_ratio, 3)
         });
         let text = format!(

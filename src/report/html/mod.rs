@@ -1,4 +1,4 @@
-//! The report as HTML: one self-contained page per [`Page`](super::document::Page), no network,
+//! The report as HTML: one self-contained page per [`Page`](crate::document::Page), no network,
 //! no other files needed to read it.
 
 mod blocks;

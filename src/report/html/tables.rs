@@ -3,13 +3,13 @@
 use maud::{Markup, html};
 
 use super::blocks::{inline, safe};
-use crate::document::{Align, Cell, Column, ColumnKind, Table, Value, Verdict};
+use crate::document::{Align, Cell, ColumnKind, PrintedColumn, PrintedTable, Value, Verdict};
 
 /// Rows beyond which a table is shown on demand: what a page says stands before its long tables.
 const LONG: usize = 20;
 
 /// A table; a long one under its caption, which unfolds it.
-pub(super) fn table(table: &Table) -> Markup {
+pub(super) fn table(table: &PrintedTable) -> Markup {
     let rows = table.rows().len();
     if rows <= LONG {
         return unfolded(table, true);
@@ -20,7 +20,7 @@ pub(super) fn table(table: &Table) -> Markup {
 }
 
 /// A table in a container of its own, so that a wide one scrolls and the page does not.
-pub(super) fn unfolded(table: &Table, captioned: bool) -> Markup {
+pub(super) fn unfolded(table: &PrintedTable, captioned: bool) -> Markup {
     html! {
         div.scroll tabindex="0" role="region" aria-label=(table.caption.to_plain()) {
             table {
@@ -50,9 +50,9 @@ pub(super) fn unfolded(table: &Table, captioned: bool) -> Markup {
 }
 
 /// The headings: one row, or two where columns are grouped.
-fn head(columns: &[Column]) -> Markup {
+fn head(columns: &[PrintedColumn]) -> Markup {
     let grouped = columns.iter().any(|c| c.group.is_some());
-    let heading = |column: &Column| {
+    let heading = |column: &PrintedColumn| {
         html! {
             (column.title)
             @if let Some(unit) = &column.unit { " " span.unit { "[" (unit) "]" } }
@@ -84,14 +84,14 @@ fn head(columns: &[Column]) -> Markup {
     }
 }
 
-fn align(column: &Column) -> &'static str {
+fn align(column: &PrintedColumn) -> &'static str {
     match column.align {
         Align::Left => "left",
         Align::Right => "right",
     }
 }
 
-fn classes(column: &Column, cell: &Cell) -> String {
+fn classes(column: &PrintedColumn, cell: &Cell) -> String {
     let mut classes = align(column).to_owned();
     if matches!(cell.value, Value::Number { .. }) {
         classes.push_str(" number");
@@ -110,7 +110,7 @@ fn classes(column: &Column, cell: &Cell) -> String {
     classes
 }
 
-fn content(column: &Column, cell: &Cell) -> Markup {
+fn content(column: &PrintedColumn, cell: &Cell) -> Markup {
     match &cell.value {
         Value::Text(text) if column.kind == ColumnKind::Code => {
             let text = text.to_plain();

@@ -1,7 +1,7 @@
 //! Errors per region and precision, laws, and parity with the device.
 
-use super::{Evidence, bare, device_notice, on_device, place};
-use crate::document::{Block, Cell, Column, NoticeLevel, Section, Table, Verdict};
+use super::{EffectEvidence, bare, device_notice, on_device, place};
+use crate::document::{Block, Cell, NoticeLevel, PrintedColumn, PrintedTable, Section, Verdict};
 use crate::effect::Yardstick;
 use crate::numeric::measured::Measured;
 use crate::validate::accuracy::Accuracy;
@@ -9,7 +9,7 @@ use crate::validate::laws::{LawStanding, LawVerdict};
 use crate::validate::parity::BINS;
 use crate::validate::study::CandidateStudy;
 
-pub(super) fn section(evidence: &Evidence<'_>) -> Section {
+pub(super) fn section(evidence: &EffectEvidence<'_>) -> Section {
     let section = Section::new("Accuracy").paragraph(
         "Measured on points that were not fitted: an offset grid, seeded random points and the hard \
          cases. f64 is the formula itself; f32 the constants as shipped with correctly rounded \
@@ -48,17 +48,21 @@ fn units(rows: &[(&CandidateStudy, &Accuracy)]) -> String {
     units.join(" or ")
 }
 
-fn table(caption: String, rows: &[(&CandidateStudy, &Accuracy)]) -> Table {
+fn table(caption: String, rows: &[(&CandidateStudy, &Accuracy)]) -> PrintedTable {
     let unit = units(rows);
-    let of_errors = |title: &str| Column::number(title, unit.as_str());
-    let mut table = Table::over(caption, rows)
-        .column(Column::code("fit"), |(fit, _)| Cell::text(bare(&fit.name)));
+    let of_errors = |title: &str| PrintedColumn::number(title, unit.as_str());
+    let mut table = PrintedTable::over(caption, rows)
+        .column(PrintedColumn::code("fit"), |(fit, _)| Cell::text(bare(&fit.name)));
     if rows.iter().any(|(_, accuracy)| accuracy.yardstick == Yardstick::RelativeL2) {
         let grouped = rows.iter().any(|(_, accuracy)| !accuracy.relative_l2.at.is_empty());
         let title = if grouped { "relative L2, worst group" } else { "relative L2" };
         table = table
-            .column(Column::number(title, "1"), |(_, of)| Cell::number(of.relative_l2.value, 3))
-            .column(Column::text("worst group"), |(_, of)| Cell::text(place(&of.relative_l2.at)));
+            .column(PrintedColumn::number(title, "1"), |(_, of)| {
+                Cell::number(of.relative_l2.value, 3)
+            })
+            .column(PrintedColumn::text("worst group"), |(_, of)| {
+                Cell::text(place(&of.relative_l2.at))
+            });
     }
     let largest = |title| of_errors(title).grouped("max |error|");
     table
@@ -68,14 +72,14 @@ fn table(caption: String, rows: &[(&CandidateStudy, &Accuracy)]) -> Table {
         .column(of_errors("RMS, f32"), |(_, of)| Cell::number(of.f32.rms, 4))
         .column(of_errors("bias, f32"), |(_, of)| Cell::number(of.f32.bias, 3))
         .column(of_errors("p99, f32"), |(_, of)| Cell::number(of.f32.p99, 3))
-        .column(Column::number("max relative, f32", "1"), |(_, of)| {
+        .column(PrintedColumn::number("max relative, f32", "1"), |(_, of)| {
             Cell::number_or(of.f32.max_rel, 3, "the target is 0 everywhere")
         })
-        .column(Column::text("where (f32)"), |(_, of)| Cell::text(place(&of.f32.max_abs_at)))
+        .column(PrintedColumn::text("where (f32)"), |(_, of)| Cell::text(place(&of.f32.max_abs_at)))
         .table()
 }
 
-pub(super) fn laws_section(evidence: &Evidence<'_>) -> Section {
+pub(super) fn laws_section(evidence: &EffectEvidence<'_>) -> Section {
     let section = Section::new("Laws");
     if evidence.study.laws.is_empty() {
         return section.paragraph("No law is stated for this effect.");
@@ -87,23 +91,23 @@ pub(super) fn laws_section(evidence: &Evidence<'_>) -> Section {
         LawStanding::Known(_) => Cell::verdict_as(Verdict::Warn, "known violation"),
         LawStanding::Violated => Cell::verdict_as(Verdict::Fail, "violated"),
     };
-    let table = Table::over(
+    let table = PrintedTable::over(
         "Every law against every fit, in f32, at the points where it is most likely to break.",
         &evidence.study.laws,
     )
-    .column(Column::code("fit"), |law| Cell::text(bare(&law.fit)))
-    .column(Column::code("law"), |law| Cell::text(law.law.as_str()))
-    .column(Column::number("worst violation", "1"), |law| Cell::number(law.violation, 3))
-    .column(Column::number("accepted", "1"), |law| Cell::number(law.tolerance, 3))
-    .column(Column::verdict("verdict"), verdict)
-    .column(Column::text("reason"), |law| match &law.verdict {
+    .column(PrintedColumn::code("fit"), |law| Cell::text(bare(&law.fit)))
+    .column(PrintedColumn::code("law"), |law| Cell::text(law.law.as_str()))
+    .column(PrintedColumn::number("worst violation", "1"), |law| Cell::number(law.violation, 3))
+    .column(PrintedColumn::number("accepted", "1"), |law| Cell::number(law.tolerance, 3))
+    .column(PrintedColumn::verdict("verdict"), verdict)
+    .column(PrintedColumn::text("reason"), |law| match &law.verdict {
         LawStanding::Known(reason) => Cell::text(reason.as_str()),
         LawStanding::Holds | LawStanding::Violated => Cell::text(""),
     });
     section.block(Block::List(stated.collect())).block(table)
 }
 
-pub(super) fn parity_section(evidence: &Evidence<'_>) -> Section {
+pub(super) fn parity_section(evidence: &EffectEvidence<'_>) -> Section {
     let (mut found, mut reasons) = (Vec::new(), Vec::new());
     for fit in &evidence.study.candidates {
         match &fit.parity {
@@ -119,25 +123,27 @@ pub(super) fn parity_section(evidence: &Evidence<'_>) -> Section {
     if found.is_empty() {
         return section;
     }
-    let table = Table::over(
+    let table = PrintedTable::over(
         "Distance between the device and the f32 lanes, in units in the last place of the result.",
         found,
     )
-    .column(Column::code("fit"), |(fit, _)| Cell::text(*fit))
-    .column(Column::number("points", "1"), |(_, parity)| Cell::count(parity.count))
+    .column(PrintedColumn::code("fit"), |(fit, _)| Cell::text(*fit))
+    .column(PrintedColumn::number("points", "1"), |(_, parity)| Cell::count(parity.count))
     .columns(
         0..BINS.len(),
         |at| match (*at, BINS[*at]) {
-            (0, _) => Column::number("equal", "1"),
-            (at, u64::MAX) => Column::number(format!("> {} ulp", BINS[at - 1]), "1"),
-            (_, end) => Column::number(format!("≤ {end} ulp"), "1"),
+            (0, _) => PrintedColumn::number("equal", "1"),
+            (at, u64::MAX) => PrintedColumn::number(format!("> {} ulp", BINS[at - 1]), "1"),
+            (_, end) => PrintedColumn::number(format!("≤ {end} ulp"), "1"),
         },
         |(_, parity), at| Cell::count(parity.histogram[*at]),
     )
-    .column(Column::number("max", "ulp"), |(_, parity)| {
+    .column(PrintedColumn::number("max", "ulp"), |(_, parity)| {
         Cell::count(usize::try_from(parity.max_ulp).unwrap_or(usize::MAX))
     })
-    .column(Column::number("max |difference|", "1"), |(_, of)| Cell::number(of.max_abs, 3))
-    .column(Column::number("NaN on one side", "1"), |(_, of)| Cell::count(of.nan_mismatches));
+    .column(PrintedColumn::number("max |difference|", "1"), |(_, of)| Cell::number(of.max_abs, 3))
+    .column(PrintedColumn::number("NaN on one side", "1"), |(_, of)| {
+        Cell::count(of.nan_mismatches)
+    });
     section.block(table)
 }

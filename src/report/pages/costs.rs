@@ -1,10 +1,12 @@
 //! Error against cost, with the frontier drawn.
 
-use super::{Evidence, bare, device_notice, on_device};
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Block, Cell, Column, Figure, Highlight, Section, Table, Verdict, number};
+use super::{EffectEvidence, bare, device_notice, on_device};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{
+    Block, Cell, Figure, Highlight, PrintedColumn, PrintedTable, Section, Verdict, number,
+};
 use crate::effect::{Effect, Yardstick};
-use crate::gpu::{Measurement, Spread};
+use crate::gpu::{Spread, TimingFigures};
 use crate::numeric::measured::Measured;
 use crate::validate::cheapest::{Cheapest, LIMITS, cheapest};
 use crate::validate::cost::Costs;
@@ -12,8 +14,8 @@ use crate::validate::goals::{GoalVerdict, goals};
 use crate::validate::standing::{Answers, Standing, standings};
 use crate::validate::study::Study;
 
-pub(super) fn section(evidence: &Evidence<'_>) -> Section {
-    let Evidence { effect, study, costs, .. } = *evidence;
+pub(super) fn section(evidence: &EffectEvidence<'_>) -> Section {
+    let EffectEvidence { effect, study, costs, .. } = *evidence;
     let mut section = cost_section("Error against cost", effect, study, costs);
     // The figures stand between what is concluded and the tables.
     let place = section.blocks.iter().position(|block| matches!(block, Block::Table(_)));
@@ -68,7 +70,7 @@ fn answer(answers: &Answers<'_>) -> String {
     text
 }
 
-fn figures(evidence: &Evidence<'_>) -> Vec<Figure> {
+fn figures(evidence: &EffectEvidence<'_>) -> Vec<Figure> {
     let (effect, costs) = (evidence.effect, evidence.costs);
     let groups = groups(costs);
     let (axis, place) = match &costs.adapter {
@@ -80,8 +82,8 @@ fn figures(evidence: &Evidence<'_>) -> Vec<Figure> {
             1 => format!("{}: error against cost", effect.title),
             _ => format!("Error against cost, beside {}", bare(group)),
         };
-        let x = Axis::log(axis, "ns per evaluation");
-        let y = Axis::log(format!("{}, f32", yardstick.words()), "1");
+        let x = PlotAxis::log(axis, "ns per evaluation");
+        let y = PlotAxis::log(format!("{}, f32", yardstick.words()), "1");
         let marked = points.iter().map(|(_, cost, error)| (*cost, *error));
         let plot = Plot::new(title, x, y).series(Series::markers("forms", marked)).with_frontier();
         let plot = points
@@ -106,7 +108,7 @@ type Points<'a> = (Vec<(&'a str, f64, f64)>, Yardstick);
 
 /// Every timed fit of the group that refers to `baseline`: over its first region for fits to a
 /// reference, over all members for fits to a family.
-fn errors<'a>(evidence: &Evidence<'a>, baseline: &str) -> Points<'a> {
+fn errors<'a>(evidence: &EffectEvidence<'a>, baseline: &str) -> Points<'a> {
     let study = evidence.study;
     let mut yardstick = Yardstick::MaxAbs;
     let timed = evidence.costs.forms.iter().filter(|cost| cost.baseline == baseline);
@@ -144,9 +146,9 @@ fn baselines(costs: &Costs) -> String {
     }
 }
 
-fn table(standings: &[Standing<'_>], costs: &Costs) -> Table {
+fn table(standings: &[Standing<'_>], costs: &Costs) -> PrintedTable {
     let has_device = costs.adapter.value().is_some();
-    let timed = |of: fn(&Measurement) -> Cell| {
+    let timed = |of: fn(&TimingFigures) -> Cell| {
         move |one: &&Standing<'_>| match &one.cost.device {
             Measured::Value(timing) => of(timing),
             // A form that a device there was did not measure says why.
@@ -154,29 +156,31 @@ fn table(standings: &[Standing<'_>], costs: &Costs) -> Table {
             Measured::NotMeasured(_) => Cell::missing("no device"),
         }
     };
-    Table::over(
+    PrintedTable::over(
         "Cost per evaluation, the cheapest first. Lanes: one core, interpreted from naga's IR. On \
          the frontier: no fit to the same reference errs less at no more cost.",
         standings,
     )
-    .column(Column::code("fit"), |one| Cell::text(bare(one.fit)))
-    .column(Column::text("frontier"), |one| Cell::text(if one.frontier { "●" } else { "" }))
-    .column(Column::text("error, f32"), |one| {
+    .column(PrintedColumn::code("fit"), |one| Cell::text(bare(one.fit)))
+    .column(PrintedColumn::text("frontier"), |one| {
+        Cell::text(if one.frontier { "●" } else { "" })
+    })
+    .column(PrintedColumn::text("error, f32"), |one| {
         let errors = one.error.iter();
         let errors = errors.map(|(region, error)| format!("{} ({region})", number(*error, 3)));
         Cell::text(errors.collect::<Vec<_>>().join(", "))
     })
-    .column(Column::number("device", "ns"), timed(|of| Cell::number(of.net_ns.median, 3)))
-    .column(Column::text("quartiles [ns]"), timed(|of| quartiles(Some(of.net_ns))))
+    .column(PrintedColumn::number("device", "ns"), timed(|of| Cell::number(of.net_ns.median, 3)))
+    .column(PrintedColumn::text("quartiles [ns]"), timed(|of| quartiles(Some(of.net_ns))))
     .column(
-        Column::number("ratio to baseline", "1"),
+        PrintedColumn::number("ratio to baseline", "1"),
         timed(|of| {
             Cell::number_or(of.ratio.map(|ratio| ratio.median), 3, "no baseline to refer to")
         }),
     )
-    .column(Column::text("quartiles of the ratio"), timed(|of| quartiles(of.ratio)))
-    .column(Column::number("f32 lanes", "ns"), |one| Cell::number(one.cost.lanes_f32_ns, 3))
-    .column(Column::number("f64 lanes", "ns"), |one| Cell::number(one.cost.lanes_f64_ns, 3))
+    .column(PrintedColumn::text("quartiles of the ratio"), timed(|of| quartiles(of.ratio)))
+    .column(PrintedColumn::number("f32 lanes", "ns"), |one| Cell::number(one.cost.lanes_f32_ns, 3))
+    .column(PrintedColumn::number("f64 lanes", "ns"), |one| Cell::number(one.cost.lanes_f64_ns, 3))
     .highlighted(Highlight::Subject, |one| one.fit == one.cost.baseline)
     .table()
 }
@@ -186,13 +190,13 @@ fn quartiles(of: Option<Spread>) -> Cell {
     Cell::text(of.map(shown).unwrap_or_default())
 }
 
-fn operations(costs: &Costs) -> Table {
+fn operations(costs: &Costs) -> PrintedTable {
     let kinds = ["add, multiply", "divide, root", "elementary", "branches", "table reads"];
-    Table::over("Operations in the text.", &costs.forms)
-        .column(Column::code("fit"), |cost| Cell::text(bare(&cost.name)))
+    PrintedTable::over("Operations in the text.", &costs.forms)
+        .column(PrintedColumn::code("fit"), |cost| Cell::text(bare(&cost.name)))
         .columns(
             kinds.into_iter().enumerate(),
-            |(_, kind)| Column::number(*kind, "1"),
+            |(_, kind)| PrintedColumn::number(*kind, "1"),
             |cost, (at, _)| {
                 let of = &cost.operations;
                 let counts =
@@ -203,53 +207,53 @@ fn operations(costs: &Costs) -> Table {
         .table()
 }
 
-fn cheapest_table(least: &[Cheapest]) -> Table {
+fn cheapest_table(least: &[Cheapest]) -> PrintedTable {
     let best = |best: &Option<(String, f64)>| match best {
         Some((fit, ratio)) => Cell::text(format!("`{}` ({}×)", bare(fit), number(*ratio, 2))),
         None => Cell::text("none"),
     };
-    Table::over(
+    PrintedTable::over(
         "The cheapest fit for an error, region by region, with its cost relative to the baseline in \
          brackets. Errors in f32 by the yardstick of the region.",
         least,
     )
-    .column(Column::text("region"), |of| Cell::text(of.region.as_str()))
-    .column(Column::code("baseline"), |of| Cell::text(bare(&of.baseline)))
+    .column(PrintedColumn::text("region"), |of| Cell::text(of.region.as_str()))
+    .column(PrintedColumn::code("baseline"), |of| Cell::text(bare(&of.baseline)))
     .columns(
         LIMITS.into_iter().enumerate(),
-        |(_, limit)| Column::text(format!("≤ {} %", 100.0 * limit)),
+        |(_, limit)| PrintedColumn::text(format!("≤ {} %", 100.0 * limit)),
         |of, (at, _)| best(&of.fits[*at]),
     )
     .table()
 }
 
-fn goal_table(verdicts: &[GoalVerdict]) -> Table {
-    Table::over(
+fn goal_table(verdicts: &[GoalVerdict]) -> PrintedTable {
+    PrintedTable::over(
         "What was set out to be reached, beside what is reached: error on the device (in f32 where \
          there is none) and cost relative to the baseline.",
         verdicts,
     )
-    .column(Column::code("fit"), |goal| Cell::text(bare(&goal.fit)))
-    .column(Column::text("error, region"), |goal| {
+    .column(PrintedColumn::code("fit"), |goal| Cell::text(bare(&goal.fit)))
+    .column(PrintedColumn::text("error, region"), |goal| {
         Cell::text(format!("{}, {}", goal.yardstick, goal.region))
     })
-    .column(Column::number("asked", "1"), |goal| Cell::number(goal.error_asked, 3))
-    .column(Column::number("reached", "1"), |goal| Cell::number(goal.error, 3))
-    .column(Column::code("baseline"), |goal| Cell::text(bare(&goal.baseline)))
-    .column(Column::number("cost asked", "1"), |goal| Cell::number(goal.cost_asked, 3))
-    .column(Column::number("cost", "1"), |goal| on_device(&goal.cost, 3))
-    .column(Column::verdict("verdict"), |goal| match &goal.met {
+    .column(PrintedColumn::number("asked", "1"), |goal| Cell::number(goal.error_asked, 3))
+    .column(PrintedColumn::number("reached", "1"), |goal| Cell::number(goal.error, 3))
+    .column(PrintedColumn::code("baseline"), |goal| Cell::text(bare(&goal.baseline)))
+    .column(PrintedColumn::number("cost asked", "1"), |goal| Cell::number(goal.cost_asked, 3))
+    .column(PrintedColumn::number("cost", "1"), |goal| on_device(&goal.cost, 3))
+    .column(PrintedColumn::verdict("verdict"), |goal| match &goal.met {
         Measured::Value(true) => Cell::verdict_as(Verdict::Pass, "met"),
         Measured::Value(false) => Cell::verdict_as(Verdict::Fail, "not met"),
         Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
     })
-    .column(Column::text("why"), |goal| Cell::text(goal.why.as_str()))
+    .column(PrintedColumn::text("why"), |goal| Cell::text(goal.why.as_str()))
     .table()
 }
 
-fn references(costs: &Costs) -> Table {
-    Table::over("Cost of the references, one core, for scale.", &costs.references)
-        .column(Column::code("reference"), |of| Cell::text(of.name.as_str()))
-        .column(Column::number("f64", "ns"), |of| Cell::number(of.ns, 3))
+fn references(costs: &Costs) -> PrintedTable {
+    PrintedTable::over("Cost of the references, one core, for scale.", &costs.references)
+        .column(PrintedColumn::code("reference"), |of| Cell::text(of.name.as_str()))
+        .column(PrintedColumn::number("f64", "ns"), |of| Cell::number(of.ns, 3))
         .table()
 }

@@ -1,7 +1,7 @@
 //! Error curves: the published form beside ours.
 
-use super::{Evidence, bare};
-use crate::document::plot::{Axis, Plot, Series};
+use super::{EffectEvidence, bare};
+use crate::document::plot::{Plot, PlotAxis, Series};
 use crate::document::{Figure, Section};
 use crate::effect::Region;
 use crate::table::Table;
@@ -26,7 +26,7 @@ struct Span {
     wide: bool,
 }
 
-pub(super) fn section(evidence: &Evidence<'_>) -> Result<Section, ValidateError> {
+pub(super) fn section(evidence: &EffectEvidence<'_>) -> Result<Section, ValidateError> {
     let mut section = Section::new("Error curves").paragraph(
         "Form minus reference in f32, with the constants as shipped. Fits whose curves lie within \
          2 % of one already drawn are left out.",
@@ -51,7 +51,7 @@ pub(super) fn section(evidence: &Evidence<'_>) -> Result<Section, ValidateError>
 }
 
 /// The fits, the baseline first, so that it is drawn and others are compared with it.
-fn ordered<'a>(evidence: &Evidence<'a>) -> Vec<&'a CandidateStudy> {
+fn ordered<'a>(evidence: &EffectEvidence<'a>) -> Vec<&'a CandidateStudy> {
     let mut fits: Vec<&CandidateStudy> = evidence.study.candidates.iter().collect();
     fits.sort_by_key(|fit| !evidence.effect.baselines.contains(&fit.name.as_str()));
     fits
@@ -59,7 +59,7 @@ fn ordered<'a>(evidence: &Evidence<'a>) -> Vec<&'a CandidateStudy> {
 
 fn figures(
     mut section: Section,
-    evidence: &Evidence<'_>,
+    evidence: &EffectEvidence<'_>,
     region: &Region,
     number: usize,
     span: &Span,
@@ -67,13 +67,13 @@ fn figures(
 ) -> Section {
     let slug = evidence.effect.name.replace('_', "-");
     let axis = || match span.wide {
-        true => Axis::log(span.name, span.unit),
-        false => Axis::linear(span.name, span.unit),
+        true => PlotAxis::log(span.name, span.unit),
+        false => PlotAxis::linear(span.name, span.unit),
     };
     let coarse: Vec<&Curve> = curves.iter().filter(|curve| largest(curve) > VISIBLE).collect();
     if !coarse.is_empty() {
         let title = format!("Error over {}", region.name);
-        let mut plot = Plot::new(title, axis(), Axis::linear("error", "1"));
+        let mut plot = Plot::new(title, axis(), PlotAxis::linear("error", "1"));
         for curve in &coarse {
             let series = Series::line(bare(&curve.name), curve.points.iter().copied());
             let baseline = evidence.effect.baselines.contains(&curve.name.as_str());
@@ -89,7 +89,8 @@ fn figures(
     }
     if curves.len() > 1 {
         let title = format!("|error| over {}", region.name);
-        let mut plot = Plot::new(title, axis(), Axis::log("|error|, largest in each cell", "1"));
+        let mut plot =
+            Plot::new(title, axis(), PlotAxis::log("|error|, largest in each cell", "1"));
         for curve in curves {
             plot = plot.series(Series::line(bare(&curve.name), envelope(&curve.points)));
         }

@@ -1,8 +1,8 @@
 //! Fits to families of measured tables, and what finer fitting is worth.
 
-use super::{Evidence, bare, place};
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Block, Cell, Column, Figure, Section, Table, number};
+use super::{EffectEvidence, bare, place};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Block, Cell, Figure, PrintedColumn, PrintedTable, Section, number};
 use crate::effect::{Family, Member};
 use crate::project::Approximated;
 use crate::validate::ValidateError;
@@ -16,7 +16,7 @@ const LINEAR_BELOW: f64 = 1e-4;
 const DRAWN: usize = 6;
 
 pub(super) fn section(
-    evidence: &Evidence<'_>,
+    evidence: &EffectEvidence<'_>,
     family: &FamilyStudy,
 ) -> Result<Section, ValidateError> {
     let description =
@@ -44,11 +44,11 @@ pub(super) fn section(
     }))
 }
 
-fn position<'a>(evidence: &Evidence<'a>, name: &str) -> Option<(usize, &'a Family)> {
+fn position<'a>(evidence: &EffectEvidence<'a>, name: &str) -> Option<(usize, &'a Family)> {
     evidence.effect.families.iter().enumerate().find(|(_, family)| family.name == name)
 }
 
-fn cost(evidence: &Evidence<'_>, fit: &str) -> f64 {
+fn cost(evidence: &EffectEvidence<'_>, fit: &str) -> f64 {
     evidence
         .costs
         .forms
@@ -57,7 +57,7 @@ fn cost(evidence: &Evidence<'_>, fit: &str) -> f64 {
         .map_or(f64::INFINITY, |cost| cost.nanoseconds())
 }
 
-fn forms_table(family: &FamilyStudy, cost: &[f64]) -> Table {
+fn forms_table(family: &FamilyStudy, cost: &[f64]) -> PrintedTable {
     let mut forms: Vec<_> = family.forms.iter().zip(cost).collect();
     forms.sort_by(|(a, _), (b, _)| b.rms.total_cmp(&a.rms));
     let spread = |form: &FormOverFamily| {
@@ -66,50 +66,50 @@ fn forms_table(family: &FamilyStudy, cost: &[f64]) -> Table {
         let spread = spread.collect::<Vec<_>>().join(", ");
         Cell::text(if spread.is_empty() { "–".to_owned() } else { spread })
     };
-    Table::over(
+    PrintedTable::over(
         "Every form over all members, in f32, on held-out points with grazing and the dips among them. \
          Spread: half the difference of a constant between sources of one material, RMS over \
          materials and bands: what a constant is known to.",
         forms,
     )
-    .column(Column::code("fit"), |(form, _)| Cell::text(bare(&form.fit)))
-    .column(Column::number("free constants", "1"), |(form, _)| Cell::count(form.free))
-    .column(Column::number("RMS", "1"), |(form, _)| Cell::number(form.rms, 3))
-    .column(Column::number("max", "1"), |(form, _)| Cell::number(form.max_abs, 3))
-    .column(Column::text("worst member"), |(form, _)| Cell::text(form.max_member.as_str()))
-    .column(Column::text("where"), |(form, _)| Cell::text(place(&form.max_at)))
-    .column(Column::number("cost", "ns"), |(_, cost)| Cell::number(**cost, 3))
-    .column(Column::text("spread of the constants between sources"), |(form, _)| spread(form))
+    .column(PrintedColumn::code("fit"), |(form, _)| Cell::text(bare(&form.fit)))
+    .column(PrintedColumn::number("free constants", "1"), |(form, _)| Cell::count(form.free))
+    .column(PrintedColumn::number("RMS", "1"), |(form, _)| Cell::number(form.rms, 3))
+    .column(PrintedColumn::number("max", "1"), |(form, _)| Cell::number(form.max_abs, 3))
+    .column(PrintedColumn::text("worst member"), |(form, _)| Cell::text(form.max_member.as_str()))
+    .column(PrintedColumn::text("where"), |(form, _)| Cell::text(place(&form.max_at)))
+    .column(PrintedColumn::number("cost", "ns"), |(_, cost)| Cell::number(**cost, 3))
+    .column(PrintedColumn::text("spread of the constants between sources"), |(form, _)| spread(form))
     .table()
 }
 
-fn choice_table(choices: &[Choice]) -> Table {
-    Table::over(
+fn choice_table(choices: &[Choice]) -> PrintedTable {
+    PrintedTable::over(
         "For each material, the cheapest form whose error stays within the spread of its sources.",
         choices,
     )
-    .column(Column::text("material"), |of| Cell::text(of.group.as_str()))
-    .column(Column::number("spread of the sources, RMS", "1"), |of| {
+    .column(PrintedColumn::text("material"), |of| Cell::text(of.group.as_str()))
+    .column(PrintedColumn::number("spread of the sources, RMS", "1"), |of| {
         Cell::number_or(of.spread_rms, 3, "one source")
     })
-    .column(Column::code("cheapest within it"), |of| {
+    .column(PrintedColumn::code("cheapest within it"), |of| {
         let none = if of.spread_rms.is_some() { "none" } else { "–" };
         Cell::text(of.cheapest.as_deref().map_or(none, bare))
     })
-    .column(Column::number("its RMS error", "1"), |of| {
+    .column(PrintedColumn::number("its RMS error", "1"), |of| {
         of.rms.map_or_else(|| Cell::text("–"), |rms| Cell::number(rms, 3))
     })
-    .column(Column::text("because"), |of| Cell::text(of.reason.as_str()))
+    .column(PrintedColumn::text("because"), |of| Cell::text(of.reason.as_str()))
     .table()
 }
 
-fn spread_table(family: &FamilyStudy) -> Table {
-    Table::over("How far the sources of a material are apart.", &family.spreads)
-        .column(Column::text("material"), |of| Cell::text(of.group.as_str()))
-        .column(Column::text("sources"), |of| Cell::text(of.sources.join(", ")))
-        .column(Column::number("RMS difference", "1"), |of| Cell::number(of.rms, 3))
-        .column(Column::number("max difference", "1"), |of| Cell::number(of.max_abs, 3))
-        .column(Column::text("band of the max"), |of| Cell::text(of.max_band.as_str()))
+fn spread_table(family: &FamilyStudy) -> PrintedTable {
+    PrintedTable::over("How far the sources of a material are apart.", &family.spreads)
+        .column(PrintedColumn::text("material"), |of| Cell::text(of.group.as_str()))
+        .column(PrintedColumn::text("sources"), |of| Cell::text(of.sources.join(", ")))
+        .column(PrintedColumn::number("RMS difference", "1"), |of| Cell::number(of.rms, 3))
+        .column(PrintedColumn::number("max difference", "1"), |of| Cell::number(of.max_abs, 3))
+        .column(PrintedColumn::text("band of the max"), |of| Cell::text(of.max_band.as_str()))
         .table()
 }
 
@@ -121,17 +121,20 @@ fn groups(family: &FamilyStudy) -> Vec<&str> {
     groups
 }
 
-fn group_table(family: &FamilyStudy) -> Table {
-    Table::over("RMS error per material, all bands and sources together, f32.", groups(family))
-        .column(Column::text("material"), |group| Cell::text(*group))
-        .columns(&family.forms, named, |group, form| Cell::number(group_rms(form, group), 3))
-        .table()
+fn group_table(family: &FamilyStudy) -> PrintedTable {
+    PrintedTable::over(
+        "RMS error per material, all bands and sources together, f32.",
+        groups(family),
+    )
+    .column(PrintedColumn::text("material"), |group| Cell::text(*group))
+    .columns(&family.forms, named, |group, form| Cell::number(group_rms(form, group), 3))
+    .table()
 }
 
-fn member_table(family: &FamilyStudy) -> Table {
+fn member_table(family: &FamilyStudy) -> PrintedTable {
     let members = family.forms.first().map_or(&[][..], |form| &form.members);
-    Table::over("RMS error per member, f32.", members.iter().enumerate())
-        .column(Column::text("member"), |(_, member)| Cell::text(member.label.as_str()))
+    PrintedTable::over("RMS error per member, f32.", members.iter().enumerate())
+        .column(PrintedColumn::text("member"), |(_, member)| Cell::text(member.label.as_str()))
         .columns(&family.forms, named, |(at, _), form| {
             let rms = form.members.get(*at).map(|member| member.residuals.rms);
             Cell::number_or(rms, 3, "no such member")
@@ -139,13 +142,13 @@ fn member_table(family: &FamilyStudy) -> Table {
         .table()
 }
 
-fn named(form: &&FormOverFamily) -> Column {
-    Column::number(bare(&form.fit), "1")
+fn named(form: &&FormOverFamily) -> PrintedColumn {
+    PrintedColumn::number(bare(&form.fit), "1")
 }
 
 /// Error curves for one member of the groups on which the forms differ most.
 fn figure(
-    evidence: &Evidence<'_>,
+    evidence: &EffectEvidence<'_>,
     family: &FamilyStudy,
     registered: &Family,
     members: &[Member],
@@ -165,8 +168,8 @@ fn figure(
         };
         let mut plot = Plot::new(
             member.label.clone(),
-            Axis::linear("cosine of incidence", "1"),
-            Axis::symlog("error", "1", LINEAR_BELOW),
+            PlotAxis::linear("cosine of incidence", "1"),
+            PlotAxis::symlog("error", "1", LINEAR_BELOW),
         );
         let over = Approximated::Family(registered.name.to_owned());
         for subject in evidence.subjects.iter().filter(|subject| subject.approximates == over) {

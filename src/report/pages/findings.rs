@@ -1,10 +1,10 @@
 //! Printed and found: claims of papers with this run's numbers beside them.
 
-use super::Evidence;
-use crate::document::{Cell, Column, Section, Table, Verdict};
+use super::EffectEvidence;
+use crate::document::{Cell, PrintedColumn, PrintedTable, Section, Verdict};
 use crate::effect::Finding;
 
-pub(super) fn section(evidence: &Evidence<'_>) -> Section {
+pub(super) fn section(evidence: &EffectEvidence<'_>) -> Section {
     table_section(&evidence.study.findings)
 }
 
@@ -14,14 +14,14 @@ pub(super) fn table_section(findings: &[Finding]) -> Section {
     if findings.is_empty() {
         return section.paragraph("No printed claim is checked here.");
     }
-    let mut table = Table::new(
+    let mut table = PrintedTable::new(
         "What is printed, what holds, and the command that shows it.",
         vec![
-            Column::text("where"),
-            Column::text("as printed"),
-            Column::text("found"),
-            Column::verdict("verdict"),
-            Column::code("command"),
+            PrintedColumn::text("where"),
+            PrintedColumn::text("as printed"),
+            PrintedColumn::text("found"),
+            PrintedColumn::verdict("verdict"),
+            PrintedColumn::code("command"),
         ],
     );
     for finding in findings {

@@ -4,9 +4,9 @@
 use std::sync::Arc;
 
 use super::gates;
-use crate::document::plot::{Axis, Plot, Series};
+use crate::document::plot::{Plot, PlotAxis, Series};
 use crate::document::{
-    Block, Cell, Column, Figure, Inline, NoticeLevel, Page, Picture, Section, Table,
+    Block, Cell, Figure, Inline, NoticeLevel, Page, Picture, PrintedColumn, PrintedTable, Section,
 };
 use crate::effect::Finding;
 use crate::gate::Judgement;
@@ -119,37 +119,41 @@ pub fn scene_tables(rendered: &Rendered) -> Vec<Block> {
     blocks
 }
 
-fn errors(rendered: &Rendered) -> Table {
-    let table = Table::over(
+fn errors(rendered: &Rendered) -> PrintedTable {
+    let table = PrintedTable::over(
         "Approximations against the reference, over all pixels and channels.",
         &rendered.approximations,
     )
-    .column(Column::code("approximation"), |found| Cell::text(found.name.as_str()))
-    .column(Column::code("shaded by"), |found| Cell::text(found.method.words()))
-    .column(Column::number("relative RMS", "1"), |found| {
+    .column(PrintedColumn::code("approximation"), |found| Cell::text(found.name.as_str()))
+    .column(PrintedColumn::code("shaded by"), |found| Cell::text(found.method.words()))
+    .column(PrintedColumn::number("relative RMS", "1"), |found| {
         Cell::number(found.metrics.relative_rms, 4)
     })
-    .column(Column::number("FLIP", "1"), |found| Cell::number(found.metrics.flip, 4))
-    .column(Column::number("mean error", "radiance"), |found| Cell::number(found.metrics.mean, 3))
-    .column(Column::number("max |error|", "radiance"), |found| Cell::number(found.metrics.max, 4))
-    .column(Column::text("where"), |found| {
+    .column(PrintedColumn::number("FLIP", "1"), |found| Cell::number(found.metrics.flip, 4))
+    .column(PrintedColumn::number("mean error", "radiance"), |found| {
+        Cell::number(found.metrics.mean, 3)
+    })
+    .column(PrintedColumn::number("max |error|", "radiance"), |found| {
+        Cell::number(found.metrics.max, 4)
+    })
+    .column(PrintedColumn::text("where"), |found| {
         let at = &found.metrics.at;
         Cell::text(format!("{}, {} {}", at.x, at.y, at.channel))
     });
     let Measured::Value(times) = &rendered.times else { return table.table() };
-    let mut table =
-        table.column(Column::number("a frame", "ms"), |found| Cell::measured(&found.frame_ms, 3));
+    let mut table = table
+        .column(PrintedColumn::number("a frame", "ms"), |found| Cell::measured(&found.frame_ms, 3));
     if times.full_ms.value().is_some() {
-        table = table.column(Column::number("in full, times slower", "1"), |found| {
+        table = table.column(PrintedColumn::number("in full, times slower", "1"), |found| {
             Cell::measured(&found.full_over, 3)
         });
     }
     if rendered.monte_carlo.is_some() {
         table = table
-            .column(Column::number("samples at equal error", "1"), |found| {
+            .column(PrintedColumn::number("samples at equal error", "1"), |found| {
                 Cell::measured(&found.equal_error.map(|equal| equal.samples), 3)
             })
-            .column(Column::number("Monte Carlo, times slower", "1"), |found| {
+            .column(PrintedColumn::number("Monte Carlo, times slower", "1"), |found| {
                 Cell::measured(&found.equal_error.map(|equal| equal.ratio), 3)
             });
     }
@@ -168,9 +172,10 @@ fn frontier(rendered: &Rendered) -> Option<Figure> {
     }
     let plot = |title: &str, error: fn(&RenderedApproximation) -> f64| {
         let points: Vec<(f64, f64)> = timed.iter().map(|(f, ms)| (*ms, error(f))).collect();
-        let mut plot = Plot::new(title, Axis::log("time of a frame", "ms"), Axis::log(title, "1"))
-            .series(Series::markers("approximations", points.iter().copied()))
-            .with_frontier();
+        let mut plot =
+            Plot::new(title, PlotAxis::log("time of a frame", "ms"), PlotAxis::log(title, "1"))
+                .series(Series::markers("approximations", points.iter().copied()))
+                .with_frontier();
         for ((found, _), (ms, error)) in timed.iter().zip(points) {
             plot = plot.annotate(ms, error, found.name.as_str());
         }
@@ -197,7 +202,7 @@ fn monte_carlo(rendered: &Rendered) -> Block {
     };
     let test = rendered.monte_carlo_metrics.as_ref().and_then(|metrics| metrics.z_test.as_ref());
     let tested = |value: Option<f64>| Cell::number_or(value, 3, "no standard error");
-    Table::of_rows(
+    PrintedTable::of_rows(
         "Monte Carlo against the reference: its error at two numbers of samples, the exponent between \
          them (−1/2 by theory), and a z-test of the larger run against its own standard error.",
         [

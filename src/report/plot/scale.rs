@@ -1,6 +1,6 @@
 //! Scales: how values are spaced along an axis, and where its ticks stand.
 
-use crate::document::plot::{Axis, Scale};
+use crate::document::plot::{PlotAxis, Scale};
 
 /// Values beyond this magnitude are treated as not finite: their differences would overflow.
 const LARGEST: f64 = 1e150;
@@ -50,7 +50,7 @@ impl Span {
     /// The span of `axis` that shows `values`, with about `wanted` labelled ticks. `margin` is
     /// left free at both ends, as a fraction of the whole.
     pub(super) fn new(
-        axis: &Axis,
+        axis: &PlotAxis,
         values: impl Iterator<Item = f64>,
         margin: f64,
         wanted: usize,
@@ -269,7 +269,7 @@ mod tests {
 
     #[test]
     fn a_single_value_still_spans() {
-        let span = Span::new(&Axis::linear("v", "1"), [3.0].into_iter(), 0.05, 5);
+        let span = Span::new(&PlotAxis::linear("v", "1"), [3.0].into_iter(), 0.05, 5);
         assert_eq!(span.fraction(3.0), Some(0.5));
         assert!(span.ticks.len() >= 2);
     }

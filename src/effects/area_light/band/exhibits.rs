@@ -2,8 +2,8 @@
 
 use super::lobe_errors::{Part, relative_errors};
 use super::{LARGE, LEAN, MEDIUM, PRINTED, PRINTED_LARGE};
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Figure, PrintedTable, Section};
 use crate::effect::{Candidates, ClaimError};
 
 /// Orders in the tables.
@@ -47,7 +47,8 @@ fn figure(
 ) -> Result<Figure, ClaimError> {
     // A logarithmic axis has no place for n = 0: it is in the tables.
     let orders: Vec<u32> = (1..=1000).collect();
-    let (x, y) = (Axis::log("order n of the lobe", "1"), Axis::log("|relative error|", "1"));
+    let (x, y) =
+        (PlotAxis::log("order n of the lobe", "1"), PlotAxis::log("|relative error|", "1"));
     let mut plot = Plot::new(title, x, y);
     for (name, shown) in SHOWN {
         let errors = relative_errors(candidates.get(name)?, part, &orders)?;
@@ -64,12 +65,12 @@ fn figure(
     Ok(Figure::new(stem, caption, plot))
 }
 
-fn table(candidates: &Candidates, caption: &str, part: Part) -> Result<Table, ClaimError> {
+fn table(candidates: &Candidates, caption: &str, part: Part) -> Result<PrintedTable, ClaimError> {
     let columns = [("n", "1")].into_iter().chain(SHOWN.map(|(_, shown)| (shown, "1")));
     let mut rows: Vec<_> = ORDERS.iter().map(|&n| vec![f64::from(n).into()]).collect();
     for (name, _) in SHOWN {
         let errors = relative_errors(candidates.get(name)?, part, &ORDERS)?;
         rows.iter_mut().zip(errors).for_each(|(row, error)| row.push(error.into()));
     }
-    Ok(Table::of_rows(caption, columns, rows))
+    Ok(PrintedTable::of_rows(caption, columns, rows))
 }

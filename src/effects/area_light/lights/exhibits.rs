@@ -6,8 +6,8 @@ use super::draws::{Draw, limbs};
 use super::errors::{exact, light_of, named, relative_l2, single};
 use super::hard_exhibit::hard_cases;
 use super::regions::{KS, REGIONS};
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Cell, Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Cell, Figure, PrintedTable, Section};
 use crate::effect::{Candidates, ClaimError, Quantity};
 
 /// What is done across the slices, in order of the number of slices.
@@ -35,7 +35,7 @@ fn sweeps(candidates: &Candidates) -> Result<Section, ClaimError> {
         candidates,
         &SPHERE,
         ("light-angular-radius", "k sigma = 250, the origin line anywhere across the sphere"),
-        ("Error against the angular radius of a sphere", Axis::log("angular radius", "rad")),
+        ("Error against the angular radius of a sphere", PlotAxis::log("angular radius", "rad")),
         &radii,
         |draw, radius| {
             let axis = draw.direction(0.2, 1.0);
@@ -47,7 +47,7 @@ fn sweeps(candidates: &Candidates) -> Result<Section, ClaimError> {
         candidates,
         &SPHERE,
         ("light-coherence", "angular radius 0.05 rad, the origin line anywhere across the sphere"),
-        ("Error against the width of the lobe", Axis::log("k sigma", "1")),
+        ("Error against the width of the lobe", PlotAxis::log("k sigma", "1")),
         &lobes,
         |draw, ks| {
             let axis = draw.direction(0.2, 1.0);
@@ -63,7 +63,7 @@ fn sweeps(candidates: &Candidates) -> Result<Section, ClaimError> {
             "k sigma = 250, a large triangle with an edge through the mirror direction, at this angle to the \
              origin line",
         ),
-        ("Error against the angle of an edge through the lobe", Axis::linear("angle", "deg")),
+        ("Error against the angle of an edge through the lobe", PlotAxis::linear("angle", "deg")),
         &angles,
         |draw, angle| edge_through(draw, 250.0, angle.to_radians()),
     )?;
@@ -83,7 +83,7 @@ fn figure<const N: usize>(
     candidates: &Candidates,
     arguments: &[Quantity; N],
     (stem, caption): (&str, &str),
-    (title, x): (&str, Axis),
+    (title, x): (&str, PlotAxis),
     abscissae: &[f64],
     row: impl Fn(&mut Draw, f64) -> [f64; N],
 ) -> Result<Figure, ClaimError> {
@@ -93,7 +93,7 @@ fn figure<const N: usize>(
     let points = table(arguments, &rows, stem);
     let (light, reference) = light_of(&points);
     let exact = exact(reference, &points)?;
-    let mut plot = Plot::new(title, x, Axis::log("relative L2 error", "1"));
+    let mut plot = Plot::new(title, x, PlotAxis::log("relative L2 error", "1"));
     for (across, name) in ACROSS.into_iter().filter(|(across, _)| has(light, across)) {
         let values = single(named(candidates, light, across)?, &points)?;
         let errors = values.chunks(DRAWS).zip(exact.chunks(DRAWS)).map(|(v, e)| relative_l2(v, e));
@@ -186,5 +186,5 @@ fn cheapest(candidates: &Candidates) -> Result<Section, ClaimError> {
                    each: 80 draws per row, in f32";
     Ok(Section::new("The cheapest form for an error, by regime")
         .paragraph("Costs in time are those that `striae bench` measures.")
-        .block(Table::of_rows(caption, columns, rows)))
+        .block(PrintedTable::of_rows(caption, columns, rows)))
 }

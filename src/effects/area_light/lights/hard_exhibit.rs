@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use super::errors::{row, single};
 use super::hard_cases::HARD_CASES;
-use crate::document::{Cell, Section, Table};
+use crate::document::{Cell, PrintedTable, Section};
 use crate::effect::{Candidate, Candidates, ClaimError};
 use crate::numeric::statistics::percentile;
 use crate::table;
@@ -80,7 +80,7 @@ pub(super) fn hard_cases(candidates: &Candidates) -> Result<Section, ClaimError>
              points on the surface of a sphere to 1e-6, where the light jumps from one half to all of the \
              hemisphere. On the device: cargo test --release --test lights -- --nocapture.",
         )
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "Worst errors over the hard cases, with their rows and arguments",
             columns,
             rows,

@@ -21,7 +21,7 @@
 //!
 //! A slice ξ₁ = const of the light is made of intervals of ξ₂, whose ends are known in closed form
 //! (`sphere`, `polygon`) and whose integral is the band integral; `across` integrates over the
-//! slices, and an integral that does not converge is an error. [`monte_carlo`] is the second method.
+//! slices, and an integral that does not converge is an error. Monte Carlo over the light is the second method (tests/lights).
 //!
 //! # Forms
 //!
@@ -46,7 +46,7 @@
 //! # Hard cases
 //!
 //! f32 against f64 of the same text, relative to the value (above 1e-6 of the lobe) and to the most that the
-//! lobe can hold, on 6000 spheres and 7200 triangles (tests/lights.rs). In some worst cases the rounding of
+//! lobe can hold, on 6000 spheres and 7200 triangles (tests/lights). In some worst cases the rounding of
 //! the arguments alone may change the value by more, and no form in f32 does better:
 //! - two vertices on the origin line to 1e-8, where the single line passes the edge between them on one side
 //!   or on the other: relative error 133, by rounding of the arguments 498 (row 1067); a vertex on the
@@ -71,7 +71,6 @@ mod exhibits;
 mod hard_cases;
 mod hard_exhibit;
 mod laws;
-pub mod monte_carlo;
 mod polygon;
 mod regions;
 mod sphere;
@@ -91,7 +90,7 @@ pub(super) const SPHERE: Reference = Reference {
     arguments: &columns::SPHERE,
     unit: "1",
     accuracy: "relative error <= 1e-9, or error <= 1e-12 sqrt(pi)/ks 2 pi/(kw + pi), for half-angles from 1e-6 rad \
-               (tests/lights.rs)",
+               (tests/lights)",
     source: "velinov2018 eq. 3, 10 and 24; silhouette asin(r/p), both roots",
     evaluate: Evaluate::Scalar(|point| {
         let [kw, ks, view_x, view_y, x, y, z, radius] = arguments(point)?;
@@ -106,7 +105,7 @@ pub(super) const TRIANGLE: Reference = Reference {
     arguments: &columns::TRIANGLE,
     unit: "1",
     accuracy: "relative error <= 1e-9, or error <= 1e-12 sqrt(pi)/ks 2 pi/(kw + pi), for extents from 1e-6 rad \
-               (tests/lights.rs)",
+               (tests/lights)",
     source: "velinov2018 eq. 3, 10 and 24; both roots",
     evaluate: Evaluate::Scalar(|point| {
         let [kw, ks, view_x, view_y, rest @ ..]: [f64; 13] = arguments(point)?;
@@ -120,7 +119,7 @@ pub(super) const TRIANGLE: Reference = Reference {
 /// `kw`, `ks`: kW and kσ, 1, positive. `view`: (ω_o·t, ω_o·b), 1. `centre`, `radius`: of one unit of
 /// length, `centre` from the shaded point, `radius` positive. Returns I, 1. A shaded point inside the
 /// sphere is lit from everywhere. Relative error ≤ 1e-9, or for what is hardly seen error ≤ 1e-12 of the
-/// most that the lobe can hold, √π/ks · 2π/(kw + π) (tests/lights.rs).
+/// most that the lobe can hold, √π/ks · 2π/(kw + π) (tests/lights).
 ///
 /// # Errors
 /// [`DomainError`] for what is not finite or not positive where it has to be, and where the integral
@@ -151,7 +150,7 @@ pub fn sphere_light(
 /// plane, around the polygon either way, from the shaded point; what is inside is said by the even–odd
 /// rule. Returns I, 1; 0 if the shaded point lies in the plane of the polygon. Relative error ≤ 1e-9,
 /// or for what is hardly seen error ≤ 1e-12 of the most that the lobe can hold, √π/ks · 2π/(kw + π)
-/// (tests/lights.rs).
+/// (tests/lights).
 ///
 /// # Errors
 /// [`DomainError`] for less than three vertices, for what is not finite or not positive where it has to

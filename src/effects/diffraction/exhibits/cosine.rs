@@ -1,10 +1,10 @@
 use super::GREEN_NM;
 use super::grating::disc;
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Cell, Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Cell, Figure, PrintedTable, Section};
 use crate::effect::ClaimError;
 use crate::effects::diffraction::DiffractionError;
-use crate::effects::diffraction::far_field::Transform;
+use crate::effects::diffraction::far_field::FarFieldTransform;
 use crate::effects::diffraction::table::{NORMAL, at_wavelength};
 use crate::numeric::statistics::relative_l2;
 
@@ -24,7 +24,7 @@ pub(in crate::effects::diffraction) fn fixed_cosine_error()
     const SIZE: usize = 129;
     const STEPS: usize = 20;
     let surface = disc()?;
-    let transform = Transform::new(&surface, 1)?;
+    let transform = FarFieldTransform::new(&surface, 1)?;
     let w_at = |i: usize| 1.0 + i as f64 / STEPS as f64;
     let mut axes = None;
     let tables: Vec<Vec<f64>> = (0..=STEPS)
@@ -64,8 +64,8 @@ pub(in crate::effects::diffraction) fn fixed_cosine_error()
 pub(super) fn exhibit() -> Result<Section, ClaimError> {
     let mut plot = Plot::new(
         "Error of w = 2 throughout",
-        Axis::linear("angle of incidence", "°"),
-        Axis::linear("relative error", "1"),
+        PlotAxis::linear("angle of incidence", "°"),
+        PlotAxis::linear("relative error", "1"),
     );
     for depth in [20.0, 60.0, 120.0, 150.0] {
         let error = |degrees: f64| (degrees, grating_error(depth, degrees.to_radians()));
@@ -88,12 +88,12 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
              the normal, by depth.",
             plot,
         ))
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "A depth of 120 nm",
             [("angle of incidence", "°"), ("relative error of every order", "1")],
             angles,
         ))
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "The table of a simulated disc, 120 nm deep, against one with w of its own in every \
              texel, at 550 nm: relative L2 error over a ring, and relative error of its power",
             [("|h| from", "1"), ("to", "1"), ("relative L2 error", "1"), ("power", "1")],

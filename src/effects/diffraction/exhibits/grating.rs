@@ -2,7 +2,7 @@
 
 use crate::effects::diffraction::DiffractionError;
 use crate::effects::diffraction::preparation::{
-    Preparation, PreparedSurface, USUAL, Window, prepared,
+    Preparation, PreparedHeights, USUAL, Window, prepared,
 };
 use crate::effects::diffraction::surfaces::{
     CompactDisc, Grating, Patch, Profile, compact_disc, grating,
@@ -10,7 +10,7 @@ use crate::effects::diffraction::surfaces::{
 
 /// One row across 32 periods of a grating, sampled 64 times each, without a window: every order falls on a
 /// cell of the transform.
-pub(super) fn line(period_um: f64, profile: Profile) -> Result<PreparedSurface, DiffractionError> {
+pub(super) fn line(period_um: f64, profile: Profile) -> Result<PreparedHeights, DiffractionError> {
     let patch = Patch { samples: 2048, side_um: 32.0 * period_um, line: true };
     let heights = grating(Grating { period_um, angle: 0.0, profile }, patch);
     prepared(&heights, Preparation { window: Window::Rectangle, ..level() })
@@ -27,7 +27,7 @@ pub(super) const DISC: CompactDisc =
     CompactDisc { pitch_um: 1.6, pit_width_um: 0.5, depth_nm: 120.0, bit_um: 0.278, seed: 1 };
 
 /// 51.2 µm of that disc in samples of 0.2 µm.
-pub(super) fn disc() -> Result<PreparedSurface, DiffractionError> {
+pub(super) fn disc() -> Result<PreparedHeights, DiffractionError> {
     let patch = Patch { samples: 256, side_um: 51.2, line: false };
     prepared(&compact_disc(DISC, patch), level())
 }

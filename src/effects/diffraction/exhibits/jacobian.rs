@@ -1,10 +1,10 @@
 use super::GREEN_NM;
 use super::grating::disc;
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Cell, Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Cell, Figure, PrintedTable, Section};
 use crate::effect::ClaimError;
 use crate::effects::diffraction::DiffractionError;
-use crate::effects::diffraction::far_field::Transform;
+use crate::effects::diffraction::far_field::FarFieldTransform;
 use crate::effects::diffraction::table::{NORMAL, at_wavelength};
 
 /// Mean of 1/cos θ over the disc |h| ≤ `extent`: 2 (1 − √(1 − u²))/u².
@@ -20,7 +20,7 @@ pub(in crate::effects::diffraction) fn disc_furnace(
 ) -> Result<Vec<(f64, f64, f64)>, DiffractionError> {
     const SIZE: usize = 257;
     let surface = disc()?;
-    let field = Transform::new(&surface, 1)?.far_field(&surface, GREEN_NM, NORMAL);
+    let field = FarFieldTransform::new(&surface, 1)?.far_field(&surface, GREEN_NM, NORMAL);
     let (texels, [x, _]) = at_wavelength(&field, [SIZE, SIZE], 1.0);
     let centres = x.centres();
     let sums = |extent: f64| {
@@ -48,8 +48,8 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
     let shown: Vec<f64> = widths.iter().copied().filter(|u| *u >= 0.2).collect();
     let plot = Plot::new(
         "Light that is left out without 1/cos θ_i",
-        Axis::linear("half-width in h", "1"),
-        Axis::log("relative to what is left", "1"),
+        PlotAxis::linear("half-width in h", "1"),
+        PlotAxis::log("relative to what is left", "1"),
     )
     .series(Series::dashed("at the edge", widths.iter().map(|&u| (u, edge(u) - 1.0))))
     .series(Series::line("even table", widths.iter().map(|&u| (u, mean_over_disc(u) - 1.0))))
@@ -70,7 +70,7 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
              for a simulated disc under a white sky away from the mirror.",
             plot,
         ))
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "Light that is left out, relative to what is left",
             [("half-width", "1"), ("at the edge", "1"), ("even table", "1"), ("disc", "1")],
             rows,

@@ -1,9 +1,9 @@
 use super::GREEN_NM;
 use super::grating::line;
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Figure, PrintedTable, Section};
 use crate::effect::{ClaimError, DomainError};
-use crate::effects::diffraction::far_field::{FarField, Transform};
+use crate::effects::diffraction::far_field::{FarField, FarFieldTransform};
 use crate::effects::diffraction::reference::{rectangular_order_power, sinusoid_order_power};
 use crate::effects::diffraction::surfaces::Profile;
 use crate::effects::diffraction::table::NORMAL;
@@ -18,7 +18,8 @@ fn power(field: &FarField, order: u32) -> f64 {
 
 pub(super) fn exhibit() -> Result<Section, ClaimError> {
     let phase_per_nm = std::f64::consts::TAU * NORMAL / GREEN_NM;
-    let transform = Transform::new(&line(PERIOD_UM, Profile::Sinusoid { amplitude_nm: 1.0 })?, 1)?;
+    let transform =
+        FarFieldTransform::new(&line(PERIOD_UM, Profile::Sinusoid { amplitude_nm: 1.0 })?, 1)?;
     let phases: Vec<f64> = (0..=48).map(|i| 0.13 * f64::from(i)).collect();
     let mut found: Vec<Vec<f64>> = vec![Vec::new(); ORDERS as usize];
     let mut parseval = 0.0_f64;
@@ -32,8 +33,8 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
     }
     let mut plot = Plot::new(
         "Sinusoidal relief",
-        Axis::linear("amplitude of the phase a", "rad"),
-        Axis::linear("power", "1"),
+        PlotAxis::linear("amplitude of the phase a", "rad"),
+        PlotAxis::linear("power", "1"),
     );
     let mut rows = Vec::new();
     for (order, powers) in (0..).zip(&found) {
@@ -68,7 +69,7 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
             "Share of the power in order m over the amplitude of the phase a = k w b.",
             plot,
         ))
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "Largest |far field − J_m²| of the sinusoids, and a rectangle 120 nm deep at 550 nm",
             [
                 ("m", "1"),

@@ -1,10 +1,10 @@
 use super::GREEN_NM;
 use super::grating::{disc, level};
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Cell, Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Cell, Figure, PrintedTable, Section};
 use crate::effect::ClaimError;
-use crate::effects::diffraction::illuminant::Illuminant;
-use crate::effects::diffraction::preparation::{PreparedSurface, prepared};
+use crate::effects::diffraction::illuminant::IlluminantChoice;
+use crate::effects::diffraction::preparation::{PreparedHeights, prepared};
 use crate::effects::diffraction::surfaces::{
     Grating, HolographicPaper, Patch, Profile, grating, holographic_paper,
 };
@@ -41,15 +41,15 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
     };
     let blazed =
         Grating { period_um: 2.0, angle: 0.0, profile: Profile::Blazed { height_nm: 200.0 } };
-    let surfaces: [(&str, PreparedSurface); 3] = [
+    let surfaces: [(&str, PreparedHeights); 3] = [
         ("disc", disc()?),
         ("blazed", prepared(&grating(blazed, patch), level())?),
         ("holographic paper", prepared(&holographic_paper(paper, patch), level())?),
     ];
     let wavelengths: Vec<f64> = (0..=20).map(|i| 380.0 + 20.0 * f64::from(i)).collect();
-    let rgb = shape(Channels::Rgb(Illuminant::D65), wavelengths);
+    let rgb = shape(Channels::Rgb(IlluminantChoice::D65), wavelengths);
     let coloured = of_surface(&surfaces[0].1, &rgb, 1, NORMAL, &spectra)?;
-    let axes = || (Axis::linear("h along x", "1"), Axis::log("S_d", "sr⁻¹"));
+    let axes = || (PlotAxis::linear("h along x", "1"), PlotAxis::log("S_d", "sr⁻¹"));
     let (x, y) = axes();
     let mut of_disc = Plot::new("Compact disc, h_y = 0", x, y);
     for channel in ["R", "G", "B"] {
@@ -84,7 +84,7 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
             "One wavelength: orders where m λ/d puts them.",
             of_three,
         ))
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "Shares of the reflected power at 550 nm",
             [
                 ("surface", ""),

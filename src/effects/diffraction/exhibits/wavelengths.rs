@@ -1,10 +1,10 @@
 use super::GREEN_NM;
 use super::grating::line;
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Cell, Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Cell, Figure, PrintedTable, Section};
 use crate::effect::ClaimError;
 use crate::effects::diffraction::DiffractionError;
-use crate::effects::diffraction::illuminant::Illuminant;
+use crate::effects::diffraction::illuminant::IlluminantChoice;
 use crate::effects::diffraction::surfaces::Profile;
 use crate::effects::diffraction::table::{
     Channels, NORMAL, PatternPlacing, TableShape, of_pattern, of_surface,
@@ -43,7 +43,7 @@ pub(in crate::effects::diffraction) fn rule_errors(
         size: [SIZE, 1],
         extent: 1.0,
         wavelengths_nm,
-        channels: Channels::Rgb(Illuminant::D65),
+        channels: Channels::Rgb(IlluminantChoice::D65),
     };
     let exact = of_surface(&surface, &shape, 1, NORMAL, spectra)?.grid;
     let known = TableShape {
@@ -88,8 +88,8 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
         depths.iter().map(|d| rule_errors(*d, &spectra)).collect::<Result<_, _>>()?;
     let mut plot = Plot::new(
         "Error of tables made from 550 nm",
-        Axis::linear("depth", "nm"),
-        Axis::log("relative L2 error", "1"),
+        PlotAxis::linear("depth", "nm"),
+        PlotAxis::log("relative L2 error", "1"),
     );
     for (name, channel) in [("R", 0), ("G", 1), ("B", 2)] {
         let over = |of: fn(&Rules) -> [f64; 3]| {
@@ -117,7 +117,7 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
              the wavelength, 137 nm, is where λ⁻² is nearest in the green.",
             plot,
         ))
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "Relative L2 error of the orders in R, G and B",
             [
                 ("depth", "nm"),

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::{grid, log_grid};
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Figure, PrintedTable, Section};
 use crate::effects::scratch_response::amplitude::{depth_factor, sinc_pi};
 use crate::numeric::statistics::relative_l2;
 
@@ -75,7 +75,7 @@ pub(super) fn exhibit() -> Section {
     let figure = |stem, title, x, points: &dyn Fn(DepthPhase) -> Vec<(f64, f64)>| {
         let small = Series::line("small angles (eq. 4)", points(DepthPhase::SmallAngle)).strong();
         let mirror = Series::line("mirror direction (ours)", points(DepthPhase::Mirror));
-        let y = Axis::linear("relative RMS error", "1");
+        let y = PlotAxis::linear("relative RMS error", "1");
         let plot = Plot::new(format!("Depth phase: error against {title}"), x, y);
         Figure::new(
             stem,
@@ -104,7 +104,7 @@ pub(super) fn exhibit() -> Section {
         .block(figure(
             "scratch-depth-exitance",
             "exitance",
-            Axis::linear("exitance", "degrees"),
+            PlotAxis::linear("exitance", "degrees"),
             &|phase| {
                 let error = |angle: f64| PAPER.error_at(angle.to_radians(), phase);
                 grid(0.0, 85.0, 86).map(|angle| (angle, error(angle))).collect()
@@ -113,7 +113,7 @@ pub(super) fn exhibit() -> Section {
         .block(figure(
             "scratch-depth-incidence",
             "incidence",
-            Axis::linear("incidence", "degrees"),
+            PlotAxis::linear("incidence", "degrees"),
             &over(grid(0.0, 80.0, 17).collect(), |degrees| Sampling {
                 incidence_rad: degrees * PI / 180.0,
                 ..PAPER
@@ -122,25 +122,25 @@ pub(super) fn exhibit() -> Section {
         .block(figure(
             "scratch-depth-wavelength",
             "wavelength",
-            Axis::linear("wavelength", "um"),
+            PlotAxis::linear("wavelength", "um"),
             &over(grid(0.38, 0.78, 21).collect(), |um| Sampling { wavelength_um: um, ..PAPER }),
         ))
         .block(figure(
             "scratch-depth-width",
             "width",
-            Axis::log("W", "um"),
+            PlotAxis::log("W", "um"),
             &over(sizes.clone(), |width| Sampling { width_um: [width; 2], ..PAPER }),
         ))
         .block(figure(
             "scratch-depth-depth",
             "depth",
-            Axis::log("D", "um"),
+            PlotAxis::log("D", "um"),
             &over(sizes, |depth| Sampling { depth_um: [0.9 * depth, 1.1 * depth], ..PAPER }),
         ))
         .block(incidence_table())
 }
 
-fn incidence_table() -> Table {
+fn incidence_table() -> PrintedTable {
     let bands = [
         ("W, D 0.8 to 6 um", [0.8, 6.0], [0.8, 6.0]),
         ("W 20, D 0.3 um", [20.0; 2], [0.3; 2]),
@@ -155,7 +155,7 @@ fn incidence_table() -> Table {
             vec![name.into(), degrees.into(), errors[0].into(), errors[1].into()]
         })
     });
-    Table::of_rows(
+    PrintedTable::of_rows(
         "Relative RMS error over exitances, 550 nm",
         [
             ("scratch", ""),

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use super::{grid, log_grid};
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Figure, PrintedTable, Section};
 use crate::effect::{Candidates, ClaimError, points};
 use crate::effects::scratch_response::amplitude::along_factor;
 use crate::effects::scratch_response::regions::COLUMNS;
@@ -62,8 +62,8 @@ pub(super) fn exhibit(candidates: &Candidates) -> Result<Section, ClaimError> {
     let lengths: Vec<f64> = log_grid(0.2, 12.0, 41).collect();
     let mut plot = Plot::new(
         "Ends: error against length",
-        Axis::log("length over sigma", "1"),
-        Axis::log("relative RMS error", "1"),
+        PlotAxis::log("length over sigma", "1"),
+        PlotAxis::log("relative RMS error", "1"),
     );
     for (name, begin) in [("centred", -0.5), ("begins at the point", 0.0)] {
         let errors = lengths
@@ -105,7 +105,7 @@ pub(super) fn exhibit(candidates: &Candidates) -> Result<Section, ClaimError> {
              begins there.",
             plot,
         ))
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "By the place of the ends. Energy: of the infinite scratch over that of the finite one; \
              that of the matched Gaussian is exact.",
             [

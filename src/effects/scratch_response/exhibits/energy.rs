@@ -5,13 +5,15 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 
 use super::grid;
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Cell, Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Cell, Figure, PrintedTable, Section};
 use crate::effects::scratch_response::ensemble::{
     Base, Depth, Ends, Lit, Model, Recipe, Sum, all_models, mirror_width, scratches,
     under_normal_light,
 };
-use crate::effects::scratch_response::surface::{Coherence, Directions, Scratch, mirror_amplitude};
+use crate::effects::scratch_response::surface::{
+    Coherence, Directions, StraightScratch, mirror_amplitude,
+};
 
 /// Smaller than the paper's 60 µm, as the quadrature over the disc takes (2σk)² points; what counts
 /// are widths over σ.
@@ -151,12 +153,12 @@ pub(super) fn exhibit() -> Section {
              that falls into them on average, whatever their depth; |D|^2 a takes back what they show.",
         )
         .block(one_scratch())
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "Share of the light that falls into scratches (a), and rho_c of eq. 17",
             [("scratches per area", "1"), ("a", "1"), ("rho_c", "1")],
             shares,
         ))
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "Reflected energy by combination: over the visible disc, and over the whole plane",
             columns,
             rows,
@@ -165,7 +167,7 @@ pub(super) fn exhibit() -> Section {
 
 /// Energy over the plane of a mirror with one infinite scratch, against the wavelength, in closed form.
 fn one_scratch() -> Figure {
-    let scratch = Scratch::infinite(0.0, 3.0, 0.4);
+    let scratch = StraightScratch::infinite(0.0, 3.0, 0.4);
     let curve = |taken: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
         grid(0.38, 0.78, 81)
             .map(|wavelength_um| {
@@ -177,8 +179,8 @@ fn one_scratch() -> Figure {
     };
     let plot = Plot::new(
         "Energy of a mirror with one scratch",
-        Axis::linear("wavelength", "um"),
-        Axis::linear("reflected energy", "1"),
+        PlotAxis::linear("wavelength", "um"),
+        PlotAxis::linear("reflected energy", "1"),
     )
     .series(Series::line("no blend", curve(&|_| 0.0)))
     .series(Series::line("rho_c (eq. 6, 17)", curve(&|_| scratch.density(60.0))).strong())

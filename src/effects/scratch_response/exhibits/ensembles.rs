@@ -4,13 +4,13 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
 
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Cell, Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Cell, Figure, PrintedTable, Section};
 use crate::effects::scratch_response::ensemble::{
     Base, Depth, Ends, Lit, Model, PUBLISHED, REFERENCE, Recipe, Sum, mirror_width, scratches,
     under_normal_light,
 };
-use crate::effects::scratch_response::surface::{Coherence, Scratch};
+use crate::effects::scratch_response::surface::{Coherence, StraightScratch};
 
 /// Scratches per coherence area of the study.
 const DENSITIES: [f64; 6] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
@@ -103,7 +103,7 @@ fn of_ensemble(recipe: Recipe, seed: u64, seen: Seen) -> Vec<[f64; MODELS.len()]
         .collect()
 }
 
-fn direction(rng: &mut ChaCha12Rng, scratches: &[Scratch], seen: Seen) -> [f64; 2] {
+fn direction(rng: &mut ChaCha12Rng, scratches: &[StraightScratch], seen: Seen) -> [f64; 2] {
     let width = mirror_width(LIGHT);
     let mut within = || width * rng.random_range(-1.5..1.5);
     let (along, other) = (within(), within());
@@ -151,8 +151,8 @@ pub(super) fn exhibit() -> Section {
 fn figure(stem: &str, title: &str, studies: &[EnsembleStudy], models: &[usize]) -> Figure {
     let mut plot = Plot::new(
         format!("{title}: error against scratches per coherence area"),
-        Axis::log("scratches within sigma", "1"),
-        Axis::log("relative RMS error", "1"),
+        PlotAxis::log("scratches within sigma", "1"),
+        PlotAxis::log("relative RMS error", "1"),
     );
     for &i in models {
         let points = DENSITIES.iter().zip(studies).map(|(n, study)| (*n, study.rms[i]));
@@ -163,7 +163,7 @@ fn figure(stem: &str, title: &str, studies: &[EnsembleStudy], models: &[usize]) 
     Figure::new(stem, caption, plot)
 }
 
-fn table(caption: &str, studies: &[EnsembleStudy]) -> Table {
+fn table(caption: &str, studies: &[EnsembleStudy]) -> PrintedTable {
     let mut columns = vec![("model".to_owned(), "")];
     columns.extend(DENSITIES.iter().map(|n| (format!("RMS, {n} per area"), "1")));
     columns.extend(DENSITIES.iter().map(|n| (format!("mean, {n} per area"), "1")));
@@ -173,5 +173,5 @@ fn table(caption: &str, studies: &[EnsembleStudy]) -> Table {
         [Cell::text(MODELS[i].0)].into_iter().chain(numbers).collect()
     });
     let caption = format!("{caption}: relative RMS error, and mean over the mean of the reference");
-    Table::of_rows(caption, columns, rows)
+    PrintedTable::of_rows(caption, columns, rows)
 }

@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::grid;
-use crate::document::plot::{Axis, Plot, Series};
-use crate::document::{Cell, Figure, Section, Table};
+use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::{Cell, Figure, PrintedTable, Section};
 use crate::effects::scratch_response::amplitude::{depth_factor, sinc_pi};
 
 /// Wavelength of fig. 3, µm.
@@ -44,8 +44,8 @@ pub(super) fn exhibit() -> Section {
     };
     let plot = Plot::new(
         "Radiance of one scratch (velinov2018 fig. 3)",
-        Axis::linear("exitance", "degrees"),
-        Axis::log("radiance over that at 0", "1"),
+        PlotAxis::linear("exitance", "degrees"),
+        PlotAxis::log("radiance over that at 0", "1"),
     )
     .series(Series::line("small angles, exp(i 4 pi D/lambda)", curve(|_| 2.0)).strong())
     .series(Series::dashed(
@@ -66,7 +66,7 @@ pub(super) fn exhibit() -> Section {
              lobe has one factor, at its angles each lobe has its own, so colours move with the angle.",
         )
         .block(Figure::new("scratch-figure-three", caption, plot))
-        .block(Table::of_rows(
+        .block(PrintedTable::of_rows(
             "Energy of the side lobes of the same scratch, by its depth",
             [("D", "um"), ("at small angles", "1"), ("at its angles", "1"), ("ratio", "1")],
             rows,

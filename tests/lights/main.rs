@@ -1,17 +1,20 @@
 //! Sphere and polygon lights: the semi-analytic references against an oracle and against Monte Carlo, and
 //! the forms in f32 on the hard cases against themselves in f64.
 
+mod monte_carlo;
+
 use std::f64::consts::{PI, TAU};
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
 use striae::effect::{FormEntry, Reference};
-use striae::effects::area_light::lights::monte_carlo::{self, Draws, Estimate};
 use striae::effects::area_light::{polygon_light, sphere_light};
 use striae::gpu::{Device, required};
 use striae::numeric::statistics::sum;
 use striae::registry::Registry;
+
+use self::monte_carlo::{Draws, Estimate};
 
 /// Samples per configuration.
 const SAMPLES: u32 = 100_000;

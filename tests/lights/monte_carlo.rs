@@ -11,26 +11,26 @@ use rand_chacha::ChaCha12Rng;
 
 /// A mean with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
+pub(crate) struct Estimate {
     /// Mean of the samples.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Standard error of the mean.
-    pub standard_error: f64,
+    pub(crate) standard_error: f64,
 }
 
 /// Samples to draw: how many, and from which stream of which seed.
 #[derive(Debug, Clone, Copy)]
-pub struct Draws {
+pub(crate) struct Draws {
     /// Number of samples, at least 2.
-    pub count: u32,
+    pub(crate) count: u32,
     /// Seed of the generator.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// Stream of the generator.
-    pub stream: u64,
+    pub(crate) stream: u64,
 }
 
-/// Estimate of [`super::sphere_light`] for the same arguments.
-pub fn sphere_light(
+/// Estimate of the sphere light (`striae::effects::area_light::sphere_light`).
+pub(crate) fn sphere_light(
     kw: f64,
     ks: f64,
     view: [f64; 2],
@@ -61,8 +61,8 @@ pub fn sphere_light(
     })
 }
 
-/// Estimate of [`super::polygon_light`] for the same arguments.
-pub fn polygon_light(
+/// Estimate of the polygon light (`striae::effects::area_light::polygon_light`).
+pub(crate) fn polygon_light(
     kw: f64,
     ks: f64,
     view: [f64; 2],
