@@ -1,27 +1,103 @@
-//! The list of effects that everything iterates, as a value to which a caller adds.
+//! What is registered: effects, and the forms that their texts and those of a project define.
 
+use std::collections::BTreeSet;
+use std::path::Path;
 use std::sync::LazyLock;
 
 use crate::effect::simulator::Simulator;
-use crate::effect::{Effect, Family, FormEntry, Reference};
+use crate::effect::{Effect, Family, FormEntry, FormLibrary, FormTextError, Reference};
 
-/// Effects, and what they register, by name.
+/// The built-in effects. To add one: its folder, and a line here.
+pub const EFFECTS: &[&Effect] = &[
+    &crate::effects::sine_integral::EFFECT,
+    &crate::effects::fresnel::EFFECT,
+    &crate::effects::scratch_response::EFFECT,
+    &crate::effects::footprint::EFFECT,
+    &crate::effects::area_light::EFFECT,
+    &crate::effects::diffraction::EFFECT,
+];
+
+/// Effects and registered forms, found by name.
 #[derive(Debug, Clone)]
 pub struct Registry {
     effects: Vec<&'static Effect>,
+    forms: FormLibrary,
 }
 
-static BUILTIN: LazyLock<Registry> = LazyLock::new(|| Registry { effects: EFFECTS.to_vec() });
+/// Why something could not be registered.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum RegistryError {
+    /// Two effects or two references have one name.
+    #[error("the {kind} `{name}` is registered already")]
+    Taken {
+        /// `effect` or `reference`.
+        kind: &'static str,
+        /// The name.
+        name: &'static str,
+    },
+    /// A text of a form is at fault.
+    #[error(transparent)]
+    Text(#[from] FormTextError),
+}
 
 impl Registry {
-    /// The effects of striae.
+    /// The built-in effects.
+    ///
+    /// # Panics
+    /// If one of their texts is at fault, which a test rules out.
     pub fn builtin() -> &'static Self {
+        static BUILTIN: LazyLock<Registry> = LazyLock::new(|| {
+            Registry::new(EFFECTS.to_vec()).unwrap_or_else(|error| panic!("built in: {error}"))
+        });
         &BUILTIN
     }
 
-    /// Every effect, in the order of registration.
+    /// `effects` and their forms, which may use each other's texts.
+    ///
+    /// # Errors
+    /// [`RegistryError`] if a name is there twice or a text is at fault.
+    pub fn new(effects: Vec<&'static Effect>) -> Result<Self, RegistryError> {
+        distinct_names(&effects)?;
+        let forms = FormLibrary::new(&effects)?;
+        Ok(Self { effects, forms })
+    }
+
+    /// With one effect more, whose forms may use the texts that are registered.
+    ///
+    /// # Errors
+    /// As [`Registry::new`].
+    pub fn with_effect(mut self, effect: &'static Effect) -> Result<Self, RegistryError> {
+        self.effects.push(effect);
+        distinct_names(&self.effects)?;
+        self.forms = self.forms.with_last(&self.effects)?;
+        Ok(self)
+    }
+
+    /// With the forms of a folder on disk, as [`FormLibrary::with_folder`] names them.
+    ///
+    /// # Errors
+    /// [`RegistryError::Text`] if the folder cannot be read or a text is at fault.
+    pub fn with_forms_of(mut self, folder: &Path) -> Result<Self, RegistryError> {
+        self.forms = self.forms.with_folder(&self.effects, folder)?;
+        Ok(self)
+    }
+
+    /// Every effect.
     pub fn effects(&self) -> &[&'static Effect] {
         &self.effects
+    }
+
+    /// Every form: effect by effect, those of no effect last.
+    pub fn forms(&self) -> impl Iterator<Item = &FormEntry> {
+        self.forms.iter()
+    }
+
+    /// The forms of `effect`, in order.
+    pub fn forms_of<'r>(
+        &'r self,
+        effect: &Effect,
+    ) -> impl Iterator<Item = &'r FormEntry> + use<'r> {
+        self.forms.of(effect.name)
     }
 
     /// The effect called `name`.
@@ -29,19 +105,9 @@ impl Registry {
         self.effects.iter().copied().find(|effect| effect.name == name)
     }
 
-    /// The forms of an effect.
-    pub fn forms_of<'a>(&'a self, effect: &Effect) -> impl Iterator<Item = &'a FormEntry> {
-        self.effect(effect.name).into_iter().flat_map(|effect| effect.forms)
-    }
-
-    /// Every form.
-    pub fn forms(&self) -> impl Iterator<Item = &FormEntry> {
-        self.effects.iter().flat_map(|effect| effect.forms)
-    }
-
     /// The form called `effect/form`.
     pub fn form(&self, name: &str) -> Option<&FormEntry> {
-        self.forms().find(|form| form.name == name)
+        self.forms.get(name)
     }
 
     /// Every reference.
@@ -61,35 +127,36 @@ impl Registry {
 
     /// The reference called `name`, with its effect.
     pub fn reference(&self, name: &str) -> Option<(&'static Effect, &'static Reference)> {
-        self.effects
-            .iter()
-            .flat_map(|effect| effect.references.iter().map(move |found| (*effect, found)))
-            .find(|(_, reference)| reference.name == name)
+        self.find(|effect| effect.references, |reference| reference.name == name)
     }
 
     /// The family called `name`, with its effect.
     pub fn family(&self, name: &str) -> Option<(&'static Effect, &'static Family)> {
-        self.effects
-            .iter()
-            .flat_map(|effect| effect.families.iter().map(move |family| (*effect, family)))
-            .find(|(_, family)| family.name == name)
+        self.find(|effect| effect.families, |family| family.name == name)
     }
 
     /// The simulator called `name`, with its effect.
     pub fn simulator(&self, name: &str) -> Option<(&'static Effect, &'static Simulator)> {
-        self.effects
-            .iter()
-            .flat_map(|effect| effect.simulators.iter().map(move |found| (*effect, found)))
-            .find(|(_, simulator)| simulator.name == name)
+        self.find(|effect| effect.simulators, |simulator| simulator.name == name)
+    }
+
+    fn find<T>(
+        &self,
+        list: fn(&'static Effect) -> &'static [T],
+        is_it: impl Fn(&T) -> bool,
+    ) -> Option<(&'static Effect, &'static T)> {
+        let each =
+            self.effects.iter().flat_map(|&effect| list(effect).iter().map(move |t| (effect, t)));
+        each.into_iter().find(|(_, item)| is_it(item))
     }
 }
 
-/// Every effect. To add one: its folder, and a line here.
-pub const EFFECTS: &[&Effect] = &[
-    &crate::effects::sine_integral::EFFECT,
-    &crate::effects::fresnel::EFFECT,
-    &crate::effects::scratch_response::EFFECT,
-    &crate::effects::footprint::EFFECT,
-    &crate::effects::area_light::EFFECT,
-    &crate::effects::diffraction::EFFECT,
-];
+fn distinct_names(effects: &[&'static Effect]) -> Result<(), RegistryError> {
+    let names = effects.iter().map(|effect| ("effect", effect.name));
+    let references = effects.iter().flat_map(|effect| effect.references);
+    let mut seen = BTreeSet::new();
+    match names.chain(references.map(|r| ("reference", r.name))).find(|item| !seen.insert(*item)) {
+        Some((kind, name)) => Err(RegistryError::Taken { kind, name }),
+        None => Ok(()),
+    }
+}

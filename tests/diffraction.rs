@@ -15,8 +15,8 @@ use striae::effects::diffraction::{
 };
 use striae::measured::height_map::HeightMap;
 use striae::measured::pattern::Pattern;
-use striae::measured::spectra::Spectra;
-use striae::table::Grid;
+use striae::measured::spectra::{self, Spectra};
+use striae::table::{Column, Grid, Table};
 
 /// Absolute error stated in the documentation of the references.
 const ORDER_ERROR: f64 = 1e-13;
@@ -131,10 +131,13 @@ fn weights_of_every_light_sum_to_one_and_those_of_daylight_are_the_reader_s() {
     let spectra = spectra();
     let plain = spectra.linear_srgb_weights(&nodes).expect("weights");
     assert_eq!(Illuminant::D65.srgb_weights(&nodes, &spectra).expect("weights"), plain);
-    let wavelength_nm: Vec<f64> = (0..=80).map(|i| 380.0 + 5.0 * f64::from(i)).collect();
-    let power = wavelength_nm.iter().map(|w| spectra.d65().power(*w).unwrap_or(0.0)).collect();
+    let nm: Vec<f64> = (0..=80).map(|i| 380.0 + 5.0 * f64::from(i)).collect();
+    let power = nm.iter().map(|w| spectra.d65().power(*w).unwrap_or(0.0)).collect();
+    let columns = vec![Column::new("wavelength", "nm", nm), Column::new("power", "1", power)];
+    let spectrum = spectra::Illuminant::of(&Table { columns, origin: "test".into() });
+    let spectrum = spectrum.expect("increasing");
     // Daylight as a file, cut at 780 nm: the same weights but for what is cut.
-    let tabulated = Illuminant::Tabulated { wavelength_nm, power, origin: "test".into() };
+    let tabulated = Illuminant::Tabulated { spectrum, origin: "test".into() };
     for light in [Illuminant::A, Illuminant::E, tabulated.clone()] {
         let weights = light.srgb_weights(&nodes, &spectra).expect("weights");
         for channel in 0..3 {

@@ -8,7 +8,7 @@ use striae::effect::Member;
 use striae::effects::fresnel::EFFECT;
 use striae::effects::fresnel::materials::FAMILY;
 use striae::effects::fresnel::reference::{conductor, dielectric};
-use striae::form::{Form, Parameter};
+use striae::form::Form;
 use striae::registry::Registry;
 
 /// Stated accuracy of the references; the largest error on the oracle's points is 1.8e-15.
@@ -153,26 +153,12 @@ fn evaluate(form: &Form, constants: &[f32], inputs: &[Vec<f32>]) -> Vec<f32> {
     form.eval_f32(constants, &columns).expect("the form evaluates").swap_remove(0)
 }
 
-/// Starting constants, as in the text of the form.
-fn defaults(form: &Form) -> Vec<f32> {
-    let default = |p: &Parameter| p.default.expect("every constant has a default") as f32;
-    form.parameters().iter().map(default).collect()
-}
-
 #[test]
 fn every_form_keeps_every_law_that_it_is_not_known_to_break() {
-    for entry in EFFECT.forms {
-        let form = form(entry.name);
-        let constants = defaults(&form);
-        let evaluate = |inputs: &[Vec<f32>]| {
-            let columns: Vec<&[f32]> = inputs.iter().map(Vec::as_slice).collect();
-            form.eval_f32(&constants, &columns).map_or_else(
-                |_| vec![f32::NAN; inputs[0].len()],
-                |mut values| values.swap_remove(0),
-            )
-        };
+    for entry in Registry::builtin().forms_of(&EFFECT) {
+        let candidate = entry.written().expect("every constant has a default");
         for law in EFFECT.laws {
-            let violation = (law.violation)(&evaluate);
+            let violation = (law.violation)(&|points| candidate.values_for_laws(points));
             let known = law.known_violations.iter().any(|(name, _)| *name == entry.name);
             assert!(
                 violation <= law.tolerance || known,
@@ -188,8 +174,11 @@ fn every_form_keeps_every_law_that_it_is_not_known_to_break() {
 fn forms_take_columns_of_the_family() {
     let members = members(false);
     let table = &members[0].table;
-    for entry in EFFECT.forms.iter().filter(|entry| entry.reference == "fresnel_conductor") {
-        for column in form(entry.name).input_columns() {
+    for entry in Registry::builtin()
+        .forms_of(&EFFECT)
+        .filter(|entry| entry.reference.as_deref() == Some("fresnel_conductor"))
+    {
+        for column in form(&entry.name).input_columns() {
             assert!(table.column(&column).is_some(), "{}: no column {column}", entry.name);
         }
     }

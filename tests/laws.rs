@@ -16,7 +16,9 @@ fn every_violation_of_a_law_is_registered() {
         let effect = subject.name.split('/').next().and_then(|name| registry.effect(name));
         let effect = effect.expect("a registered effect");
         let candidate = subject.candidates.first().expect("a candidate");
-        for law in judge(effect, &subject.form, form.reference().unwrap_or_default(), candidate) {
+        for law in
+            judge(effect, &subject.form, form.reference.as_deref().unwrap_or_default(), candidate)
+        {
             judged += 1;
             let registered = effect.laws.iter().find(|l| l.name == law.law).expect("a law");
             let known = registered.known_violations.iter().any(|(name, _)| *name == law.fit);

@@ -201,13 +201,18 @@ fn values_converge_or_are_refused() {
     }
 }
 
+fn reference_of(form: &FormEntry) -> &str {
+    form.reference.as_deref().expect("a reference")
+}
+
 /// Forms of the two lights, with the hard cases of their reference.
 fn forms() -> Vec<(&'static FormEntry, Vec<Vec<f32>>)> {
-    let effect = Registry::builtin().effect("area_light").expect("registered");
-    let lights = effect.forms.iter().filter(|form| form.reference.ends_with("_light"));
+    let registry = Registry::builtin();
+    let effect = registry.effect("area_light").expect("registered");
+    let lights = registry.forms_of(effect).filter(|form| reference_of(form).ends_with("_light"));
     lights
         .map(|form| {
-            let reference = Registry::builtin().reference(form.reference).expect("registered").1;
+            let reference = registry.reference(reference_of(form)).expect("registered").1;
             let tables = effect.hard_cases.iter().map(|cases| (cases.points)());
             let columns = tables
                 .filter(|table| reference.arguments.iter().all(|a| table.column(a.name).is_some()))
@@ -238,7 +243,7 @@ fn constants_are_those_of_the_band() {
         let bands = [("_lean", "lean"), ("_medium", "medium"), ("_printed", "printed")];
         let band = bands.iter().find(|(end, _)| entry.name.ends_with(end));
         let band = band.map_or("printed_large", |(_, band)| band);
-        assert_eq!(names(entry.name), names(&format!("area_light/band_{band}")), "{}", entry.name);
+        assert_eq!(names(&entry.name), names(&format!("area_light/band_{band}")), "{}", entry.name);
     }
 }
 

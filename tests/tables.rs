@@ -9,6 +9,8 @@ mod csv;
 mod data_sets;
 #[path = "tables/exr.rs"]
 mod exr;
+#[path = "tables/grids.rs"]
+mod grids;
 #[path = "tables/mutations.rs"]
 mod mutations;
 #[path = "tables/records.rs"]

@@ -22,7 +22,7 @@ pub(super) struct Context {
 }
 
 impl Context {
-    /// Finds the project and sets the number of threads.
+    /// Finds the project, registers its own forms, and sets the number of threads.
     pub(super) fn new(global: &Global) -> anyhow::Result<Self> {
         if let Some(threads) = global.threads {
             rayon::ThreadPoolBuilder::new()
@@ -33,8 +33,11 @@ impl Context {
         Ok(Self {
             output: Output::new(global.json, global.quiet, global.color),
             seed: global.seed,
-            project: Project::find(global.project.as_deref(), Registry::builtin())
-                .map_err(Arc::new),
+            project: match Project::find(global.project.as_deref(), Registry::builtin()) {
+                // With a form at fault no name is sure to mean what it should: no verb goes on.
+                Err(error @ ProjectError::Forms(_)) => return Err(error.into()),
+                found => found.map_err(Arc::new),
+            },
         })
     }
 

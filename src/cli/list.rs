@@ -142,7 +142,8 @@ fn references(registry: &Registry) -> Listing {
 
 fn forms(registry: &Registry) -> Listing {
     let rows = registry.forms().map(|form| {
-        row([form.name, form.function, form.reference, form.description, form.citation])
+        let reference = form.reference.as_deref().unwrap_or_default();
+        row([&form.name, &form.function, reference, &form.description, &form.citation])
     });
     Listing {
         title: "forms",

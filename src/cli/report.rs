@@ -35,7 +35,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         None => context.project()?.report(),
     };
     let run = context.run()?;
-    let check = run.check(None, false)?;
+    let check = run.check_if_gated()?;
     let written = write(&folder, &run, &check, context)?;
     context.output.sections(&serde_json::json!({ "files": written.files }), || {
         line(format!("{} files in {}", written.files.len(), folder.display()))

@@ -127,6 +127,11 @@ impl Candidate {
         self.values_f32(&inputs.iter().map(Vec::as_slice).collect::<Vec<_>>())
     }
 
+    /// What laws take the candidate for: [`Candidate::values_f32_at`], all NaN where it has no value.
+    pub fn values_for_laws(&self, points: &Table) -> Vec<f32> {
+        self.values_f32_at(points).unwrap_or_else(|_| vec![f32::NAN; points.rows().max(1)])
+    }
+
     fn inputs<'a>(&self, points: &'a Table) -> Result<Vec<&'a [f64]>, FormError> {
         let of = |name: &String| {
             let column = points.column(name).map(|column| column.values.as_slice());

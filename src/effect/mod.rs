@@ -2,19 +2,18 @@
 
 pub mod candidate;
 pub mod claim;
+mod form_library;
+mod form_text;
 pub mod points;
 pub mod simulator;
 pub mod values;
 
-use std::borrow::Cow;
-use std::collections::BTreeMap;
-use std::sync::Arc;
-
 use crate::document::Section;
-use crate::form::{Form, FormError};
 use crate::table::Table;
 pub use candidate::{Candidate, CandidateError, Candidates, ConstantsOf};
 pub use claim::{Claim, ClaimError, Finding, Found};
+pub use form_library::{FormEntry, FormLibrary};
+pub use form_text::{FormText, FormTextError, FormTextFault, TextPlace};
 use simulator::Simulator;
 pub use values::{NoValue, ReferenceValues};
 
@@ -82,32 +81,16 @@ pub struct Reference {
     pub evaluate: Evaluate,
 }
 
-/// Text of a form.
-#[derive(Debug, Clone, Copy)]
-pub enum Source {
-    /// Written by hand in `forms/*.wgsl`.
-    Written(&'static str),
-    /// Made from a reference (a lookup table, say) when it is asked for.
-    Generated(fn() -> String),
-}
-
-/// An approximation, as registered by an effect.
-#[derive(Debug, Clone, Copy)]
-pub struct FormEntry {
-    /// `effect/form`, as in `striae eval NAME`.
-    pub name: &'static str,
-    /// One line.
-    pub description: &'static str,
-    /// Where it comes from: paper and equation, or `striae`.
-    pub citation: &'static str,
-    /// Path inside the repository, for diagnostics.
-    pub path: &'static str,
-    /// The WGSL text.
-    pub source: Source,
-    /// The WGSL function.
-    pub function: &'static str,
-    /// The reference that it approximates.
-    pub reference: &'static str,
+/// The arguments of a reference as an array, since the caller may have got their number wrong.
+///
+/// # Errors
+/// [`DomainError`] if there are not N.
+pub fn arguments<const N: usize>(point: &[f64]) -> Result<[f64; N], DomainError> {
+    point.try_into().map_err(|_| DomainError {
+        quantity: "number of arguments",
+        expected: "that of the reference",
+        got: point.len() as f64,
+    })
 }
 
 /// A named region in which forms are judged: for every argument of the reference, its values.
@@ -169,8 +152,9 @@ impl Yardstick {
     }
 }
 
-/// Evaluates a form in f32: columns of inputs to values, all NaN if the columns are not the form's.
-pub type FormValues<'a> = &'a dyn Fn(&[Vec<f32>]) -> Vec<f32>;
+/// Evaluates a form in f32 at the rows of a table, from which it takes its inputs by name; all NaN if
+/// one is not there.
+pub type FormValues<'a> = &'a dyn Fn(&Table) -> Vec<f32>;
 
 /// A property that a form must have whatever its error: oddness, range, monotonicity, end points.
 #[derive(Debug, Clone, Copy)]
@@ -179,8 +163,7 @@ pub struct Law {
     pub name: &'static str,
     /// What is required, with the tolerance and why.
     pub description: &'static str,
-    /// Worst violation over hard points, 0 when the law holds exactly, for an evaluator of the form
-    /// (columns of inputs to values, f32).
+    /// Worst violation over hard points, 0 when the law holds exactly.
     pub violation: for<'a> fn(FormValues<'a>) -> f64,
     /// Largest violation accepted.
     pub tolerance: f64,
@@ -258,7 +241,7 @@ pub struct Goal {
     pub why: &'static str,
 }
 
-/// One physical thing.
+/// One physical thing. What it lacks is left to [`Effect::EMPTY`].
 #[derive(Debug, Clone, Copy)]
 pub struct Effect {
     /// Module name.
@@ -269,8 +252,8 @@ pub struct Effect {
     pub description: &'static str,
     /// Exact quantities.
     pub references: &'static [Reference],
-    /// Approximations.
-    pub forms: &'static [FormEntry],
+    /// Texts of its approximations, and of the pieces that they share.
+    pub forms: fn() -> Vec<FormText>,
     /// What makes tables of it.
     pub simulators: &'static [Simulator],
     /// Families of tables made from measured data.
@@ -294,56 +277,21 @@ pub struct Effect {
 }
 
 impl Effect {
-    /// The forms whose text gives every constant a value, as candidates with those values.
-    ///
-    /// # Errors
-    /// [`CandidateError::Form`] if a text is not a form.
-    pub fn written(&self) -> Result<Candidates, CandidateError> {
-        let candidates = self.forms.iter().map(FormEntry::written);
-        let complete = candidates.filter(|c| !matches!(c, Err(CandidateError::NoConstant { .. })));
-        complete.map(|candidate| candidate.map(Arc::new)).collect()
-    }
-}
-
-impl Source {
-    /// The WGSL text.
-    pub fn text(&self) -> Cow<'static, str> {
-        match self {
-            Self::Written(text) => Cow::Borrowed(text),
-            Self::Generated(make) => Cow::Owned(make()),
-        }
-    }
-}
-
-impl FormEntry {
-    /// Fits that its constants are taken from.
-    pub fn constants_of(&self) -> &[String] {
-        &[]
-    }
-
-    /// The family that it is judged over, where that is no reference.
-    pub fn family(&self) -> Option<&str> {
-        None
-    }
-
-    /// The reference.
-    pub fn reference(&self) -> Option<&str> {
-        Some(self.reference)
-    }
-
-    /// Parses and compiles the form.
-    ///
-    /// # Errors
-    /// [`FormError`] if the text is not a form.
-    pub fn load(&self) -> Result<Form, FormError> {
-        Form::parse(self.path, &self.source.text(), self.function)
-    }
-
-    /// The form with the constants of its text.
-    ///
-    /// # Errors
-    /// [`CandidateError`] if the text is not a form or leaves a constant without a value.
-    pub fn written(&self) -> Result<Candidate, CandidateError> {
-        Candidate::new(self.name, self.load()?, &BTreeMap::new(), ConstantsOf::Text)
-    }
+    /// An effect without a name and with nothing in it, for `..Effect::EMPTY`.
+    pub const EMPTY: Self = Self {
+        name: "",
+        title: "",
+        description: "",
+        references: &[],
+        forms: Vec::new,
+        simulators: &[],
+        families: &[],
+        regions: &[],
+        hard_cases: &[],
+        laws: &[],
+        goals: &[],
+        baselines: &[],
+        claims: &[],
+        exhibits: |_| Ok(Vec::new()),
+    };
 }

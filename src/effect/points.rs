@@ -26,11 +26,6 @@ pub fn rounded(mut table: Table) -> Table {
     table
 }
 
-/// The columns of a table in f32.
-pub fn columns_f32(table: &Table) -> Vec<Vec<f32>> {
-    table.columns.iter().map(|c| c.values.iter().map(|value| *value as f32).collect()).collect()
-}
-
 /// The f32 nearest to `x`, between the ones beside it.
 pub fn neighbours(x: f64) -> [f32; 3] {
     let x = x as f32;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::LowRankError;
 use super::resampling::bicubic;
-use crate::table::{Axis, Channel, Grid, centres};
+use crate::table::{Channel, Grid, centres};
 
 /// Determinants below this part of the product of the rows' lengths are 0: the two directions are
 /// one.
@@ -129,30 +129,4 @@ pub fn aligned(table: &Grid, alignment: &Alignment) -> Result<Grid, LowRankError
         channels: channels.collect(),
         origin: format!("{}, aligned", table.origin),
     })
-}
-
-/// What resampling alone costs: ‖S″ − S‖/‖S‖ over all channels, S″ the table aligned and brought
-/// back, over the part of the disc |h| ≤ half the smaller side that stays on the table both ways.
-/// Two resamplings: one costs about √½ of it.
-///
-/// # Errors
-/// As [`aligned`].
-pub fn resampling_error(table: &Grid, alignment: &Alignment) -> Result<f64, LowRankError> {
-    let there = aligned(table, alignment)?;
-    let back = aligned(&there, &alignment.inverse())?;
-    let half = |axis: &Axis| axis.from.abs().min(axis.to.abs());
-    let radius = half(table.x()).min(half(table.y()));
-    let on_disc = |[x, y]: [f64; 2]| x.hypot(y) <= radius;
-    let inside = |h: [f64; 2]| on_disc(h) && on_disc(alignment.apply(h));
-    let mask: Vec<bool> = centres(table.x(), table.y()).map(inside).collect();
-    let (mut error, mut whole) = (0.0, 0.0);
-    for (was, is) in table.channels.iter().zip(&back.channels) {
-        for ((a, b), kept) in was.values.iter().zip(&is.values).zip(&mask) {
-            if *kept {
-                error += (f64::from(*a) - f64::from(*b)).powi(2);
-                whole += f64::from(*a).powi(2);
-            }
-        }
-    }
-    Ok(if whole == 0.0 { 0.0 } else { (error / whole).sqrt() })
 }

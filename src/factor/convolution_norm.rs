@@ -130,21 +130,17 @@ impl ConvolutionNorm {
 
     fn from_lags(nx: usize, ny: usize, lags: Mat<f64>) -> Self {
         let transform = Transform::new(2 * nx - 1, 2 * ny - 1);
-        let (width, height) = (transform.width, transform.height);
-        let mut data = vec![Complex::default(); width * height];
-        for iy in 0..2 * ny - 1 {
-            for ix in 0..2 * nx - 1 {
-                let row = (iy + height - (ny - 1)) % height;
-                let column = (ix + width - (nx - 1)) % width;
-                if let Some(slot) = data.get_mut(row * width + column) {
-                    *slot = Complex::new(lags[(iy, ix)], 0.0);
-                }
-            }
-        }
-        transform.forward(&mut data);
-        let texels = (width * height) as f64;
-        let spectrum = data.iter().map(|c| c.re / texels).collect();
-        Self { nx, ny, lags, transform, spectrum }
+        let size = [transform.width, transform.height];
+        let mut norm = Self { nx, ny, lags, transform, spectrum: Vec::new() };
+        // Negative lags stand at the end.
+        let lag = |i: usize, n: usize| if 2 * i < n { i as i64 } else { i as i64 - n as i64 };
+        let correlation = |row: usize, column: usize| {
+            Complex::new(norm.correlation(lag(column, size[0]), lag(row, size[1])), 0.0)
+        };
+        let texels = (size[0] * size[1]) as f64;
+        norm.spectrum =
+            norm.transform.of(size, correlation).iter().map(|c| c.re / texels).collect();
+        norm
     }
 
     /// R at a lag in texels, relative to lag 0; 0 beyond the table.
@@ -163,16 +159,9 @@ impl ConvolutionNorm {
 
     /// R ⋆ d on the texels of the table.
     pub(super) fn convolved(&self, d: &Mat<f64>) -> Mat<f64> {
-        let (width, height) = (self.transform.width, self.transform.height);
-        let mut data = vec![Complex::default(); width * height];
-        for iy in 0..self.ny {
-            for ix in 0..self.nx {
-                if let Some(slot) = data.get_mut(iy * width + ix) {
-                    *slot = Complex::new(d[(iy, ix)], 0.0);
-                }
-            }
-        }
-        self.transform.forward(&mut data);
+        let width = self.transform.width;
+        let mut data =
+            self.transform.of([self.nx, self.ny], |iy, ix| Complex::new(d[(iy, ix)], 0.0));
         for (value, factor) in data.iter_mut().zip(&self.spectrum) {
             *value *= *factor;
         }
@@ -245,18 +234,10 @@ fn power_spectrum(
                 let value = |list: &Option<Vec<f64>>, i: usize| {
                     list.as_ref().and_then(|l| l.get(i)).copied().unwrap_or(0.0)
                 };
-                let [width, height] = patch.count;
-                let mut data = vec![Complex::default(); size];
-                for iy in 0..height {
-                    for ix in 0..width {
-                        if let Some(slot) = data.get_mut(iy * transform.width + ix) {
-                            let i = iy * width + ix;
-                            *slot = Complex::new(value(&first, i), value(&second, i));
-                        }
-                    }
-                }
-                transform.forward(&mut data);
-                data
+                transform.of(patch.count, |iy, ix| {
+                    let i = iy * patch.count[0] + ix;
+                    Complex::new(value(&first, i), value(&second, i))
+                })
             })
             .collect();
         for spectrum in &spectra {
@@ -274,7 +255,8 @@ fn power_spectrum(
 /// direction. Independent of [`ConvolutionNorm`]: no shift, no autocorrelation.
 ///
 /// # Errors
-/// As [`Sampler::new`]; [`LowRankError::Mismatch`] if the factors have other channels or axes.
+/// [`LowRankError::Environment`] for texels that are missing, negative or not finite;
+/// [`LowRankError::Mismatch`] if the factors have other channels or axes.
 pub fn seen_error(
     table: &Grid,
     factors: &LowRank,

@@ -1,7 +1,7 @@
 //! Kernels along lines: the table integrated across each (toisoul2017 table 2, "1D" and "Sum").
 
 use super::LowRankError;
-use crate::table::{Axis, Channel, Grid, centres};
+use crate::table::{Axis, Grid, centres};
 
 /// A kernel along a line through h = 0, integrated across it: K(h) ≈ line(h·d) δ(h·e), e ⟂ d.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,56 +119,6 @@ fn deposit(axis: &Axis, profile: &mut [f64], along: f64, amount: f64) {
     for (index, share) in [(low, 1.0 - part), (high, part)] {
         if let Some(slot) = profile.get_mut(index) {
             *slot += share * amount;
-        }
-    }
-}
-
-/// The lines drawn on a table with the given axes: each texel of a line's axis, cut into
-/// `PIECES`, goes to the four nearest texels in proportion, over their area. A line one texel wide
-/// stands for the δ across it; what falls beyond the axes is lost.
-///
-/// # Errors
-/// As [`Grid::check`].
-pub fn drawn(kernels: &[DirectionalKernel], x: &Axis, y: &Axis) -> Result<Grid, LowRankError> {
-    const PIECES: usize = 8;
-    let names: Vec<&String> = kernels
-        .first()
-        .map(|k| k.channels.iter().map(|(name, _)| name).collect())
-        .unwrap_or_default();
-    let area = spacing(x) * spacing(y);
-    let mut channels = Vec::with_capacity(names.len());
-    for (index, name) in names.into_iter().enumerate() {
-        let mut values = vec![0.0f64; x.count * y.count];
-        for kernel in kernels {
-            let Some((_, profile)) = kernel.channels.get(index) else { continue };
-            let step = spacing(&kernel.axis);
-            for (i, value) in profile.iter().enumerate().filter(|(_, v)| **v != 0.0) {
-                for piece in 0..PIECES {
-                    let offset = (piece as f64 + 0.5) / PIECES as f64 - 0.5;
-                    let s = kernel.axis.centre(i) + offset * step;
-                    let [dx, dy] = kernel.direction;
-                    let share = value * step / (PIECES as f64 * area);
-                    spread(&mut values, x, y, [s * dx, s * dy], share);
-                }
-            }
-        }
-        let values = values.iter().map(|v| *v as f32).collect();
-        channels.push(Channel::new(name, "1", values));
-    }
-    Ok(Grid::new([x.clone(), y.clone()], channels, format!("{} lines", kernels.len()))?)
-}
-
-fn spread(values: &mut [f64], x: &Axis, y: &Axis, h: [f64; 2], amount: f64) {
-    let (tx, ty) = (x.texel(h[0]), y.texel(h[1]));
-    let (left, top) = (tx.floor(), ty.floor());
-    for (i, wx) in [(left, 1.0 - (tx - left)), (left + 1.0, tx - left)] {
-        for (j, wy) in [(top, 1.0 - (ty - top)), (top + 1.0, ty - top)] {
-            if i < 0.0 || j < 0.0 || i as usize >= x.count {
-                continue;
-            }
-            if let Some(slot) = values.get_mut(j as usize * x.count + i as usize) {
-                *slot += amount * wx * wy;
-            }
         }
     }
 }

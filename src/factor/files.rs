@@ -44,8 +44,7 @@ impl LowRank {
         let horizontal = Grid::read_exr(folder.join(format!("{HORIZONTAL}.exr")))?;
         let path = folder.join(ALIGNMENT);
         let origin = path.display().to_string();
-        let text = store::read(&path)?;
-        let alignment = Alignment::from_toml(&origin, store::text(&origin, &text)?)?;
+        let alignment = Alignment::from_toml(&origin, &store::read_text(&path)?)?;
         let fault =
             |what: String| LowRankError::Mismatch { origin: folder.display().to_string(), what };
         if vertical.y().count != horizontal.y().count {

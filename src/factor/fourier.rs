@@ -40,8 +40,23 @@ impl Transform {
         }
     }
 
+    /// The transform of a table of `width` × `height` values at (row, column), 0 around it.
+    pub(super) fn of(
+        &self,
+        [width, height]: [usize; 2],
+        value: impl Fn(usize, usize) -> Complex<f64>,
+    ) -> Vec<Complex<f64>> {
+        let mut data = vec![Complex::default(); self.width * self.height];
+        for (row, values) in data.chunks_mut(self.width).take(height).enumerate() {
+            let places = values.iter_mut().take(width).enumerate();
+            places.for_each(|(column, slot)| *slot = value(row, column));
+        }
+        self.forward(&mut data);
+        data
+    }
+
     /// Transforms rows of `width`, then columns; the result is transposed: columns of `height`.
-    pub(super) fn forward(&self, data: &mut Vec<Complex<f64>>) {
+    fn forward(&self, data: &mut Vec<Complex<f64>>) {
         self.rows[0].process(data);
         *data = transposed(data, self.width, self.height);
         self.columns[0].process(data);

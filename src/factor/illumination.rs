@@ -6,7 +6,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::{Alignment, LowRankError};
-use crate::measured::environment::Environment;
+use crate::measured::environment::{Environment, luminance};
 use crate::table::Axis;
 
 /// What of the radiance counts.
@@ -26,7 +26,7 @@ pub enum Radiance {
 impl Radiance {
     fn of(self, [r, g, b]: [f64; 3]) -> f64 {
         match self {
-            Self::Luminance => 0.2126 * r + 0.7152 * g + 0.0722 * b,
+            Self::Luminance => luminance([r, g, b]),
             Self::Red => r,
             Self::Green => g,
             Self::Blue => b,
@@ -79,6 +79,10 @@ impl<'a> Sampler<'a> {
 
     /// Radiance from a unit vector, bilinear between texel centres, around in azimuth and held
     /// towards the poles.
+    ///
+    /// Maps are looked up on over the poles everywhere else
+    /// ([`LatLong`](crate::measured::environment::LatLong)). Here that would move committed factors,
+    /// and pictures made with them by 4e-8.
     pub(super) fn at(&self, [x, y, z]: [f64; 3]) -> f64 {
         let (width, height) = (self.environment.width, self.environment.height);
         let column = y.atan2(x).rem_euclid(TAU) / TAU * width as f64 - 0.5;

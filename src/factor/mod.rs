@@ -45,11 +45,11 @@ mod shared;
 mod terms;
 mod weighted;
 
-pub use alignment::{Alignment, aligned, resampling_error};
+pub use alignment::{Alignment, aligned};
 pub use convolution_norm::{ConvolutionNorm, NormOptions, seen_error};
 pub use convolved::{ConvolvedOptions, ConvolvedReport, convolved};
 pub use decomposition::{Decomposition, Spectrum};
-pub use directional::{Directional, DirectionalKernel, directional, drawn};
+pub use directional::{Directional, DirectionalKernel, directional};
 pub use error::LowRankError;
 pub use illumination::Radiance;
 pub use low_rank::{ChannelFactors, LowRank};

@@ -100,7 +100,7 @@ pub fn load_form(spec: &Spec, context: &Context) -> Result<Form, FitError> {
             let registry = &context.registry;
             let entry = registry
                 .form(name)
-                .ok_or_else(|| unknown("form", name, registry.forms().map(|f| f.name)))?;
+                .ok_or_else(|| unknown("form", name, registry.forms().map(|f| &f.name)))?;
             Ok(entry.load()?)
         }
         FormChoice::File { path, function } => {

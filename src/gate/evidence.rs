@@ -70,7 +70,7 @@ impl<'r> Evidence<'r> {
             Some(Ok(Standing { spec: Some(spec), .. })) => spec.constants.clone(),
             _ => {
                 let entry = self.project.registry().form(name);
-                entry.map_or_else(Vec::new, |entry| entry.constants_of().to_vec())
+                entry.map_or_else(Vec::new, |entry| entry.constants_of.clone())
             }
         }
     }

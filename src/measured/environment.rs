@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use super::samples::{Samples, require_count};
+use super::samples::Samples;
 use super::{MeasuredError, environment_file, environment_resized};
 use crate::table::{MAX_PIXEL_BYTES, TableError};
 
@@ -237,8 +237,7 @@ impl Environment {
     pub fn check(&self) -> Result<(), MeasuredError> {
         let (origin, width, height) = (self.origin.as_str(), self.width, self.height);
         require_size(origin, width, height)?;
-        require_count(origin, width, height, self.radiance.len())?;
-        let samples = Samples { origin, width, values: &self.radiance };
+        let samples = Samples::filling(origin, [width, height], &self.radiance)?;
         let found = |texel: &[f32; 3], wrong: fn(f32) -> bool| {
             texel.iter().copied().find(|value| wrong(*value)).map(f64::from)
         };
@@ -250,10 +249,8 @@ impl Environment {
         })?;
         if self.radiance.iter().flatten().all(|value| *value == 0.0) {
             let total = self.radiance.len();
-            return Err(MeasuredError::Implausible {
-                origin: origin.into(),
-                reason: format!("all {total} texels are black, expected light from somewhere"),
-            });
+            let reason = format!("all {total} texels are black, expected light from somewhere");
+            return Err(MeasuredError::implausible(origin, reason));
         }
         Ok(())
     }

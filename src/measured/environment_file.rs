@@ -7,6 +7,7 @@ use image::codecs::hdr::HdrDecoder;
 use image::{DynamicImage, ImageDecoder};
 
 use super::environment::{Negative, require_size};
+use super::import::extension;
 use super::{Environment, MeasuredError};
 use crate::table::{decode_exr, encode_exr, encode_half_exr, store};
 
@@ -31,14 +32,10 @@ struct Texels {
 
 /// Reads a map, of the format that the name ends in.
 pub(super) fn read(path: &Path, negative: Negative) -> Result<Environment, MeasuredError> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
-    let decode = match extension.as_str() {
+    let decode = match extension(path).as_str() {
         "hdr" => radiance,
         "exr" => exr,
-        _ => {
-            let known = "Radiance (.hdr); OpenEXR (.exr)".into();
-            return Err(MeasuredError::UnknownFormat { path: path.into(), known });
-        }
+        _ => return Err(MeasuredError::unknown_format(path, "Radiance (.hdr); OpenEXR (.exr)")),
     };
     let bytes = store::read(path)?;
     let origin = path.display().to_string();
@@ -48,7 +45,7 @@ pub(super) fn read(path: &Path, negative: Negative) -> Result<Environment, Measu
         Negative::Black => raise_to_black(&mut radiance),
     };
     let mut map = Environment::new(width, height, radiance, origin)?;
-    map.origin = format!("{} (sha256 {})", map.origin, store::sha256_hex(&bytes));
+    map.origin = store::origin(path, &bytes);
     if let Some((count, lowest)) = black {
         map.origin.push_str(&format!(", {count} negative values, down to {lowest}, taken as 0"));
     }

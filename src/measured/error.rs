@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::table::TableError;
 
@@ -150,4 +150,14 @@ pub enum MeasuredError {
         /// The extension that is expected.
         expected: &'static str,
     },
+}
+
+impl MeasuredError {
+    pub(super) fn implausible(origin: impl Into<String>, reason: impl Into<String>) -> Self {
+        Self::Implausible { origin: origin.into(), reason: reason.into() }
+    }
+
+    pub(super) fn unknown_format(path: &Path, known: impl Into<String>) -> Self {
+        Self::UnknownFormat { path: path.into(), known: known.into() }
+    }
 }

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::samples::{Samples, require_count};
+use super::import::extension;
+use super::samples::{Samples, require_two};
 use super::{MeasuredError, height_map_raw};
 use crate::table::{Axis, Channel, Grid, units};
 
@@ -44,14 +45,13 @@ impl HeightMap {
     /// too: they are in µm or m.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeasuredError> {
         let path = path.as_ref();
-        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
-        match extension.as_str() {
+        match extension(path).as_str() {
             "f32" => height_map_raw::read(path),
             "exr" => Self::from_grid(&Grid::read_exr(path)?),
-            _ => Err(MeasuredError::UnknownFormat {
-                path: path.into(),
-                known: "raw height map (.f32 with .json); grid (.exr with .exr.axes.toml)".into(),
-            }),
+            _ => Err(MeasuredError::unknown_format(
+                path,
+                "raw height map (.f32 with .json); grid (.exr with .exr.axes.toml)",
+            )),
         }
     }
 
@@ -149,19 +149,9 @@ impl HeightMap {
     /// The first rule that is broken.
     pub fn check(&self) -> Result<(), MeasuredError> {
         let (origin, width, height) = (self.origin.as_str(), self.nx, self.ny);
-        let implausible =
-            |reason: String| MeasuredError::Implausible { origin: origin.into(), reason };
-        if width < 2 || height < 2 {
-            let expected = "at least 2 along x and along y";
-            let what = "samples";
-            return Err(MeasuredError::Size {
-                origin: origin.into(),
-                what,
-                width,
-                height,
-                expected,
-            });
-        }
+        let implausible = |reason: String| MeasuredError::implausible(origin, reason);
+        let size = [width, height];
+        require_two(origin, size, "samples", "at least 2 along x and along y")?;
         for (name, spacing) in [("dx_um", self.dx_um), ("dy_um", self.dy_um)] {
             if !(spacing.is_finite() && spacing > 0.0) {
                 return Err(implausible(format!(
@@ -169,8 +159,7 @@ impl HeightMap {
                 )));
             }
         }
-        require_count(origin, width, height, self.height_nm.len())?;
-        let samples = Samples { origin, width, values: &self.height_nm };
+        let samples = Samples::filling(origin, size, &self.height_nm)?;
         samples.refuse("heights are infinite", "nm, or NaN where there is no data", |nm| {
             nm.is_infinite().then_some(*nm)
         })?;

@@ -33,10 +33,9 @@ pub(super) fn read(path: &Path) -> Result<HeightMap, MeasuredError> {
     let sidecar_path = path.with_extension("json");
     let sidecar_origin = sidecar_path.display().to_string();
     let bytes = store::read(path)?;
-    let text = store::read(&sidecar_path)?;
-    let sidecar = parse(&sidecar_origin, store::text(&sidecar_origin, &text)?)?;
+    let sidecar = parse(&sidecar_origin, &store::read_text(&sidecar_path)?)?;
     let mut map = heights(&path.display().to_string(), &bytes, &sidecar_origin, &sidecar)?;
-    map.origin = format!("{} (sha256 {})", path.display(), store::sha256_hex(&bytes));
+    map.origin = store::origin(path, &bytes);
     Ok(map)
 }
 
@@ -46,7 +45,7 @@ fn parse(origin: &str, text: &str) -> Result<Sidecar, MeasuredError> {
         line: e.line().max(1) as u64,
         reason: e.to_string(),
     })?;
-    let implausible = |reason: String| MeasuredError::Implausible { origin: origin.into(), reason };
+    let implausible = |reason: String| MeasuredError::implausible(origin, reason);
     if let Some(dtype) = &sidecar.dtype {
         if !dtype.starts_with(NUMBERS) {
             return Err(implausible(format!("dtype: expected {NUMBERS:?}, got {dtype:?}")));
@@ -67,7 +66,7 @@ fn require_nm(origin: &str, key: &str, unit: &str) -> Result<(), MeasuredError> 
         return Ok(());
     }
     let reason = format!("{key}: expected heights in nm, got {unit:?}");
-    Err(MeasuredError::Implausible { origin: origin.into(), reason })
+    Err(MeasuredError::implausible(origin, reason))
 }
 
 fn heights(
@@ -102,13 +101,11 @@ fn heights(
     match map.range_nm() {
         Some([low, high]) if high > low && high - low < LEAST_RANGE_NM => {
             let range = high - low;
-            Err(MeasuredError::Implausible {
-                origin: origin.into(),
-                reason: format!(
-                    "heights range over {range:e} nm, less than {LEAST_RANGE_NM} nm; expected \
-                     heights in nm, not in m or µm"
-                ),
-            })
+            let reason = format!(
+                "heights range over {range:e} nm, less than {LEAST_RANGE_NM} nm; expected heights \
+                 in nm, not in m or µm"
+            );
+            Err(MeasuredError::implausible(origin, reason))
         }
         _ => Ok(map),
     }

@@ -118,11 +118,16 @@ pub fn import(path: &Path) -> Result<Imported, MeasuredError> {
 /// # Errors
 /// As [`import`].
 pub fn import_with(path: &Path, negative: Negative) -> Result<Imported, MeasuredError> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
+    let extension = extension(path);
     match FORMATS.iter().find(|f| f.extensions.contains(&extension.as_str())) {
         Some(format) => (format.read)(path, negative),
-        None => Err(MeasuredError::UnknownFormat { path: path.into(), known: known_formats() }),
+        None => Err(MeasuredError::unknown_format(path, known_formats())),
     }
+}
+
+/// What the name of a file ends in, in lower case.
+pub(super) fn extension(path: &Path) -> String {
+    path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase()
 }
 
 /// The formats that [`import`] reads with their extensions, in words.

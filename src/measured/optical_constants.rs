@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use super::spectra::increasing;
 use super::{MeasuredError, linear};
 use crate::table::{Table, TableError};
 
@@ -27,24 +28,19 @@ impl OpticalConstants {
     /// [`MeasuredError`] naming the file: a name of another shape, a faulty table, wavelengths
     /// that do not increase, n ≤ 0 or k < 0.
     pub fn read(path: &Path) -> Result<Self, MeasuredError> {
-        let implausible = |reason: String| MeasuredError::Implausible {
-            origin: path.display().to_string(),
-            reason,
-        };
+        let origin = path.display().to_string();
+        let implausible = |reason: String| MeasuredError::implausible(&origin, reason);
         let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
         let Some((material, source)) = stem.split_once('.') else {
             return Err(implausible("expected a name <Material>.<Source>.csv".into()));
         };
         let table = Table::read_csv(path)?;
-        let wavelength_nm = table.values_in("wavelength", "nm")?;
+        let wavelength_nm = increasing(&origin, &table)?;
         let n = table.values_in("n", "1")?;
         let k = match table.column("k") {
             Some(_) => table.values_in("k", "1")?,
             None => vec![0.0; n.len()],
         };
-        if let Some(pair) = wavelength_nm.windows(2).find(|pair| pair[0] >= pair[1]) {
-            return Err(implausible(format!("wavelengths do not increase: {pair:?} nm")));
-        }
         if let Some(got) = n.iter().find(|n| **n <= 0.0) {
             return Err(implausible(format!("expected n > 0, got {got}")));
         }

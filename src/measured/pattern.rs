@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::samples::{Samples, require_count};
+use super::samples::{Samples, require_two};
 use super::{MeasuredError, pattern_file};
 
 /// Largest share of pixels that may have the largest value.
@@ -72,18 +72,9 @@ impl Pattern {
     /// # Errors
     /// The first rule that is broken.
     pub fn check(&self) -> Result<(), MeasuredError> {
-        let (origin, width, height) = (self.origin.as_str(), self.width, self.height);
-        if width < 2 || height < 2 {
-            return Err(MeasuredError::Size {
-                origin: origin.into(),
-                what: "pixels",
-                width,
-                height,
-                expected: "at least 2 across and down",
-            });
-        }
-        require_count(origin, width, height, self.intensity.len())?;
-        let samples = Samples { origin, width, values: &self.intensity };
+        let (origin, size) = (self.origin.as_str(), [self.width, self.height]);
+        require_two(origin, size, "pixels", "at least 2 across and down")?;
+        let samples = Samples::filling(origin, size, &self.intensity)?;
         samples.refuse("pixels are not finite", "finite intensities", |value| {
             (!value.is_finite()).then_some(*value)
         })?;
@@ -93,8 +84,7 @@ impl Pattern {
         let largest = self.intensity.iter().copied().fold(0.0, f64::max);
         let (total, count) =
             (self.intensity.len(), self.intensity.iter().filter(|v| **v == largest).count());
-        let implausible =
-            |reason: String| MeasuredError::Implausible { origin: origin.into(), reason };
+        let implausible = |reason: String| MeasuredError::implausible(origin, reason);
         if largest == 0.0 {
             return Err(implausible(format!(
                 "all {total} pixels are black, expected a pattern with light in it"

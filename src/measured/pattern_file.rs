@@ -5,6 +5,7 @@ use std::path::Path;
 
 use image::{ImageFormat, ImageReader, Limits};
 
+use super::import::extension;
 use super::{Encoding, MeasuredError, Pattern, portable_float_map};
 use crate::table::{MAX_PIXEL_BYTES, decode_exr, store};
 
@@ -22,16 +23,15 @@ pub(super) fn read(
     channel: Option<&str>,
     encoding: Encoding,
 ) -> Result<Pattern, MeasuredError> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
     let origin = path.display().to_string();
     let decode: fn(&str, &[u8], Encoding) -> Result<Picture, MeasuredError> =
-        match extension.as_str() {
+        match extension(path).as_str() {
             "png" => png,
             "exr" => |origin, bytes, _| exr(origin, bytes),
             "pfm" => |origin, bytes, _| portable_float_map::decode(origin, bytes),
             _ => {
-                let known = "PNG (.png); OpenEXR (.exr); portable float map (.pfm)".into();
-                return Err(MeasuredError::UnknownFormat { path: path.into(), known });
+                let known = "PNG (.png); OpenEXR (.exr); portable float map (.pfm)";
+                return Err(MeasuredError::unknown_format(path, known));
             }
         };
     let bytes = store::read(path)?;
@@ -40,7 +40,7 @@ pub(super) fn read(
     let intensity = chosen(&origin, picture.channels, channel)?;
     let mut pattern = Pattern { width, height, intensity, origin };
     pattern.check()?;
-    pattern.origin = format!("{} (sha256 {})", pattern.origin, store::sha256_hex(&bytes));
+    pattern.origin = store::origin(path, &bytes);
     Ok(pattern)
 }
 

@@ -70,7 +70,7 @@ impl RefractiveIndex {
         let origin = path.display().to_string();
         let bytes = store::read(path)?;
         let mut record = Self::parse(&origin, store::text(&origin, &bytes)?)?;
-        record.origin = format!("{origin} (sha256 {})", store::sha256_hex(&bytes));
+        record.origin = store::origin(path, &bytes);
         Ok(record)
     }
 
@@ -217,7 +217,7 @@ impl RefractiveIndex {
         }
         if from > to {
             let reason = format!("n and k have no wavelength in common ({from} nm, {to} nm)");
-            return Err(MeasuredError::Implausible { origin: self.origin.clone(), reason });
+            return Err(MeasuredError::implausible(&self.origin, reason));
         }
         Ok((from, to))
     }

@@ -10,7 +10,31 @@ pub(super) struct Samples<'a, T> {
     pub(super) values: &'a [T],
 }
 
-impl<T> Samples<'_, T> {
+impl<'a, T> Samples<'a, T> {
+    /// `width` × `height` values.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Length`] for another number of them.
+    pub(super) fn filling(
+        origin: &'a str,
+        [width, height]: [usize; 2],
+        values: &'a [T],
+    ) -> Result<Self, MeasuredError> {
+        let (got, expected) = (values.len() as u64, (width as u64).saturating_mul(height as u64));
+        if got == expected {
+            return Ok(Self { origin, width, values });
+        }
+        Err(MeasuredError::Length {
+            origin: origin.into(),
+            what: "values",
+            got,
+            expected,
+            width,
+            height,
+            hint: String::new(),
+        })
+    }
+
     /// Passes unless `wrong` finds a value, in some sample, that is not as `expected`; `what` says
     /// what is wrong with it.
     pub(super) fn refuse(
@@ -34,24 +58,15 @@ impl<T> Samples<'_, T> {
     }
 }
 
-/// Passes if there are `width` × `height` values.
-pub(super) fn require_count(
+/// Passes if there are two or more `what` along both sides.
+pub(super) fn require_two(
     origin: &str,
-    width: usize,
-    height: usize,
-    got: usize,
+    [width, height]: [usize; 2],
+    what: &'static str,
+    expected: &'static str,
 ) -> Result<(), MeasuredError> {
-    let (got, expected) = (got as u64, (width as u64).saturating_mul(height as u64));
-    if got == expected {
+    if width.min(height) >= 2 {
         return Ok(());
     }
-    Err(MeasuredError::Length {
-        origin: origin.into(),
-        what: "values",
-        got,
-        expected,
-        width,
-        height,
-        hint: String::new(),
-    })
+    Err(MeasuredError::Size { origin: origin.into(), what, width, height, expected })
 }

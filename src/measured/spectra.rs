@@ -33,9 +33,19 @@ pub struct Illuminant {
 }
 
 impl Illuminant {
-    fn of(table: &Table) -> Result<Self, MeasuredError> {
-        let wavelength_nm = increasing(table)?;
+    /// The illuminant of a table: columns `wavelength`, a length, and `power` \[1\].
+    ///
+    /// # Errors
+    /// [`MeasuredError`] naming the table's origin: no such column, another unit, wavelengths that
+    /// do not increase.
+    pub fn of(table: &Table) -> Result<Self, MeasuredError> {
+        let wavelength_nm = increasing(&table.origin, table)?;
         Ok(Self { wavelength_nm, power: table.values_in("power", "1")? })
+    }
+
+    /// The tabulated powers, in the order of increasing wavelength.
+    pub fn powers(&self) -> &[f64] {
+        &self.power
     }
 
     /// Relative power at a wavelength in nm; `None` where it is not tabulated.
@@ -90,25 +100,19 @@ impl Spectra {
     /// None that a build with readable files has.
     pub fn built_in() -> Result<Self, MeasuredError> {
         let read = Table::read_csv_str;
+        let observer = include_str!("../../data/measured/spectra/cie1931_xyz.csv");
+        let d65 = include_str!("../../data/measured/spectra/illuminant_d65.csv");
+        let a = include_str!("../../data/measured/spectra/illuminant_a.csv");
         Self::of(
-            &read(
-                "built-in cie1931_xyz.csv",
-                include_str!("../../data/measured/spectra/cie1931_xyz.csv"),
-            )?,
-            &read(
-                "built-in illuminant_d65.csv",
-                include_str!("../../data/measured/spectra/illuminant_d65.csv"),
-            )?,
-            &read(
-                "built-in illuminant_a.csv",
-                include_str!("../../data/measured/spectra/illuminant_a.csv"),
-            )?,
+            &read("built-in cie1931_xyz.csv", observer)?,
+            &read("built-in illuminant_d65.csv", d65)?,
+            &read("built-in illuminant_a.csv", a)?,
         )
     }
 
     fn of(observer: &Table, d65: &Table, a: &Table) -> Result<Self, MeasuredError> {
         Ok(Self {
-            wavelength_nm: increasing(observer)?,
+            wavelength_nm: increasing(&observer.origin, observer)?,
             observer: [
                 observer.values_in("x_bar", "1")?,
                 observer.values_in("y_bar", "1")?,
@@ -172,8 +176,7 @@ impl Spectra {
         &self,
         wavelengths_nm: &[f64],
     ) -> Result<SrgbWeights, MeasuredError> {
-        let implausible =
-            |reason: String| MeasuredError::Implausible { origin: "sRGB weights".into(), reason };
+        let implausible = |reason: String| MeasuredError::implausible("sRGB weights", reason);
         let increasing = wavelengths_nm.windows(2).all(|pair| pair[0] < pair[1]);
         let (Some(first), Some(last)) = (wavelengths_nm.first(), wavelengths_nm.last()) else {
             return Err(implausible("no wavelengths".into()));
@@ -225,8 +228,9 @@ fn xyz_to_linear_srgb(white: Vector3<f64>) -> Option<Matrix3<f64>> {
     (primaries * Matrix3::from_diagonal(&scale)).try_inverse()
 }
 
-/// The nodes that the value at `x` is interpolated from, with their shares.
-fn hat_shares(nodes: &[f64], x: f64) -> [(usize, f64); 2] {
+/// The nodes that the value at `x` is interpolated from, with their shares; a node past the end has
+/// none.
+pub(crate) fn hat_shares(nodes: &[f64], x: f64) -> [(usize, f64); 2] {
     let above = nodes.partition_point(|node| *node < x);
     let below = above.saturating_sub(1);
     match (nodes.get(below), nodes.get(above)) {
@@ -238,13 +242,14 @@ fn hat_shares(nodes: &[f64], x: f64) -> [(usize, f64); 2] {
     }
 }
 
-fn increasing(table: &Table) -> Result<Vec<f64>, MeasuredError> {
+/// The column `wavelength` of a table, nm, which must increase.
+pub(super) fn increasing(origin: &str, table: &Table) -> Result<Vec<f64>, MeasuredError> {
     let wavelengths = table.values_in("wavelength", "nm")?;
     match wavelengths.windows(2).find(|pair| pair[0] >= pair[1]) {
-        Some(pair) => Err(MeasuredError::Implausible {
-            origin: table.origin.clone(),
-            reason: format!("wavelengths do not increase: {pair:?} nm"),
-        }),
+        Some(pair) => {
+            let reason = format!("wavelengths do not increase: {pair:?} nm");
+            Err(MeasuredError::implausible(origin, reason))
+        }
         None => Ok(wavelengths),
     }
 }

@@ -5,14 +5,15 @@ use std::path::PathBuf;
 use crate::effect::CandidateError;
 use crate::fit::FitError;
 use crate::form::FormError;
+use crate::registry::RegistryError;
 
 /// Why a project, or something in it, could not be had.
 #[derive(Debug, thiserror::Error)]
 pub enum ProjectError {
     /// No folder upwards is a project.
     #[error(
-        "no project in {from} or above: expected a folder with `fits/` and Cargo.toml or \
-         fits/gates.toml; name one with --project or STRIAE_PROJECT"
+        "no project in {from} or above: expected a folder with `fits/` and Cargo.toml, \
+         fits/gates.toml or forms/; name one with --project or STRIAE_PROJECT"
     )]
     NotFound {
         /// Where the search began.
@@ -26,6 +27,9 @@ pub enum ProjectError {
         /// Option or variable.
         by: &'static str,
     },
+    /// A form of the folder `forms/` cannot be registered.
+    #[error(transparent)]
+    Forms(#[from] RegistryError),
     /// A file or folder cannot be read.
     #[error("{path}: {source}")]
     Io {

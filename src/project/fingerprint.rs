@@ -9,14 +9,15 @@ use super::specs::entries;
 use super::{Project, ProjectError, SpecFile};
 use crate::fit::Spec;
 
-/// SHA-256 of what every stage depends on: this program and the measured data.
+/// SHA-256 of what every stage depends on: this program, the measured data and the forms of the
+/// project's own.
 #[derive(Debug)]
 pub struct Fingerprints {
     base: Vec<u8>,
 }
 
 impl Fingerprints {
-    /// Reads this program and the data of `project`.
+    /// Reads this program, the data and the forms of `project`.
     ///
     /// # Errors
     /// [`ProjectError::Io`] if either cannot be read.
@@ -25,8 +26,10 @@ impl Fingerprints {
         let program =
             std::env::current_exe().map_err(ProjectError::io(Path::new("this program")))?;
         add_file(&mut hash, &program)?;
-        if project.data().is_dir() {
-            add_folder(&mut hash, &project.data())?;
+        for folder in [project.data(), project.forms()] {
+            if folder.is_dir() {
+                add_folder(&mut hash, &folder)?;
+            }
         }
         Ok(Self { base: hash.finalize().to_vec() })
     }

@@ -3,9 +3,9 @@
 //!
 //! | place | what | if it is missing |
 //! |---|---|---|
-//! | `forms/<effect>/<name>.wgsl` | forms of the user's own | there are none beside those of the registry |
+//! | `forms/<folder>/<name>.wgsl` | forms of the user's own, called `<folder>/<name>`; `forms/<name>.wgsl` is `own/<name>` | there are none beside those of the registry |
 //! | `fits/<effect>/<name>.toml`, `.json` | specs and results | nothing is fitted |
-//! | `fits/gates.toml` | gates | a check refuses |
+//! | `fits/gates.toml` | gates | a check refuses; a report says that nothing holds the project |
 //! | `data/measured` | measured tables | families and environments are refused by name |
 //! | `data/scenes/*.toml` | scenes | there are none |
 //! | `reports` | errors and recorded costs, to be committed | it is made |
@@ -36,19 +36,34 @@ pub struct Project {
 }
 
 impl Project {
-    /// `root` taken as a project, whether or not anything is in it.
+    /// `root` taken as a project, whether or not anything is in it; its folder `forms/` is not read
+    /// ([`Project::open`] does), so that names mean what they mean in `registry`.
     pub fn at(root: impl Into<PathBuf>, registry: &Registry) -> Self {
         Self { root: root.into(), registry: registry.clone() }
     }
 
-    /// The project `named`, else that of `STRIAE_PROJECT`, else the first folder from the current one
-    /// upwards that has `fits/` and Cargo.toml or `fits/gates.toml`.
+    /// `root` as a project, whose folder `forms/`, where there is one, is registered too, as
+    /// [`Registry::with_forms_of`] names its forms.
     ///
     /// # Errors
-    /// [`ProjectError::NotFound`] and [`ProjectError::NotOne`].
+    /// [`ProjectError::Forms`] if a text there is at fault or cannot be read.
+    pub fn open(root: impl Into<PathBuf>, registry: &Registry) -> Result<Self, ProjectError> {
+        let mut project = Self::at(root, registry);
+        if project.forms().is_dir() {
+            project.registry = project.registry.clone().with_forms_of(&project.forms())?;
+        }
+        Ok(project)
+    }
+
+    /// The project `named`, else that of `STRIAE_PROJECT`, else the first folder from the current one
+    /// upwards that has `fits/` and Cargo.toml, `fits/gates.toml` or `forms/`; opened as by
+    /// [`Project::open`].
+    ///
+    /// # Errors
+    /// [`ProjectError::NotFound`], [`ProjectError::NotOne`] and [`ProjectError::Forms`].
     pub fn find(named: Option<&Path>, registry: &Registry) -> Result<Self, ProjectError> {
         let checked = |folder: &Path, by: &'static str| match folder.join("fits").is_dir() {
-            true => Ok(Self::at(folder, registry)),
+            true => Self::open(folder, registry),
             false => Err(ProjectError::NotOne { folder: folder.to_path_buf(), by }),
         };
         if let Some(folder) = named {
@@ -60,10 +75,12 @@ impl Project {
         let from = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
         let marked = |folder: &&Path| {
             folder.join("fits").is_dir()
-                && (folder.join("Cargo.toml").is_file() || folder.join("fits/gates.toml").is_file())
+                && (folder.join("Cargo.toml").is_file()
+                    || folder.join("fits/gates.toml").is_file()
+                    || folder.join("forms").is_dir())
         };
         match from.ancestors().find(marked) {
-            Some(folder) => Ok(Self::at(folder, registry)),
+            Some(folder) => Self::open(folder, registry),
             None => Err(ProjectError::NotFound { from }),
         }
     }
@@ -76,6 +93,11 @@ impl Project {
     /// What names mean here.
     pub fn registry(&self) -> &Registry {
         &self.registry
+    }
+
+    /// Folder of forms of the user's own.
+    pub fn forms(&self) -> PathBuf {
+        self.root.join("forms")
     }
 
     /// Folder of specs, results and gates.

@@ -109,17 +109,21 @@ impl Project {
 
     fn inherited(&self, entry: &FormEntry) -> Result<(Constants, ConstantsOf), ProjectError> {
         let mut values = Constants::new();
-        for fit in entry.constants_of() {
-            let found = self.outcome(fit)?;
-            let found = found.ok_or_else(|| ProjectError::NoResult { fit: fit.clone() })?;
-            for (parameter, constant) in found.parameters {
-                // What ships: the form is made of the rounded constants.
-                values.insert(parameter, (f64::from(constant.f32), constant.f32));
-            }
+        for source in &entry.constants_of {
+            let constants = match self.outcome(source)? {
+                Some(outcome) => constants(&outcome),
+                // A form that is not fitted: its text is part of this one, with its constants.
+                None if self.registry().form(source).is_some() => Constants::new(),
+                None => return Err(ProjectError::NoResult { fit: source.clone() }),
+            };
+            // What ships: the form is made of the rounded constants.
+            values.extend(
+                constants.into_iter().map(|(name, (_, f32))| (name, (f64::from(f32), f32))),
+            );
         }
-        Ok(match entry.constants_of() {
-            [] => (values, ConstantsOf::Text),
-            fits => (values, ConstantsOf::Fits(fits.to_vec())),
+        Ok(match entry.constants_of.is_empty() {
+            true => (values, ConstantsOf::Text),
+            false => (values, ConstantsOf::Fits(entry.constants_of.clone())),
         })
     }
 

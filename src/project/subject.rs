@@ -71,7 +71,8 @@ impl Project {
     /// Everything that is judged: the result of every spec, then the registered forms without a spec of
     /// their own, in the order of the registry.
     ///
-    /// A registered form with a constant that has no value anywhere is none: it waits for its fit.
+    /// A registered form with a constant that has no value anywhere is none: it waits for its fit. So
+    /// does one that takes constants from a fit of which the project has no spec.
     ///
     /// # Errors
     /// [`ProjectError::NoResult`] for a spec without a result; and whatever keeps a spec, a result or a
@@ -87,10 +88,13 @@ impl Project {
             subjects.push(self.subject_of(Spec::read(&file.path)?, FitResult::read(&path)?)?);
         }
         for entry in self.registry().forms() {
-            if !specs.iter().any(|spec| spec.name == entry.name)
-                && let Some(subject) = self.subject_of_form(entry)?
-            {
-                subjects.push(subject);
+            if specs.iter().any(|spec| spec.name == entry.name) {
+                continue;
+            }
+            match self.subject_of_form(entry) {
+                Ok(subject) => subjects.extend(subject),
+                Err(ProjectError::NoResult { .. }) => {}
+                Err(error) => return Err(error),
             }
         }
         Ok(subjects)
@@ -129,9 +133,9 @@ impl Project {
     /// # Errors
     /// If the form does not load.
     pub fn subject_of_form(&self, entry: &FormEntry) -> Result<Option<Subject>, ProjectError> {
-        let approximates = match (entry.family(), entry.reference()) {
-            (Some(family), _) => Approximated::Family(family.to_owned()),
-            (None, Some(reference)) => Approximated::Reference(reference.to_owned()),
+        let approximates = match (&entry.family, &entry.reference) {
+            (Some(family), _) => Approximated::Family(family.clone()),
+            (None, Some(reference)) => Approximated::Reference(reference.clone()),
             (None, None) => return Ok(None),
         };
         let candidate = match self.unfitted(entry) {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Run, RunError, write_accuracy};
+use super::{Run, RunError, Studied, write_accuracy};
 use crate::document::{Colophon, Page};
 use crate::gate::{Check, Judgement, SCENES};
 use crate::render::{Backend, render};
@@ -10,9 +10,8 @@ use crate::report::html::{Written, write_site};
 use crate::report::pages::{Evidence, SceneEvidence, effect_page, index_page, scenes_page};
 
 impl Run {
-    /// Measures every effect, renders every scene and writes the report with the verdicts of `check`
-    /// into `folder`, and the table
-    /// of errors beside the project's own. `watch` is told what is measured.
+    /// Measures every effect and writes the report on them as by [`Run::report_on`]; where `folder` is
+    /// the project's own, the table of errors too.
     ///
     /// # Errors
     /// If anything of the project cannot be measured, rendered or written.
@@ -26,8 +25,14 @@ impl Run {
         if folder == self.project.report() {
             write_accuracy(&self.project.accuracy(), &studied)?;
         }
-        let scenes = self.rendered(watch)?;
-        watch("the report");
+        self.report_on(&studied, folder, check, watch)
+    }
+
+    /// The index of a report on `studied`, then the page of each effect.
+    ///
+    /// # Errors
+    /// If a form or a reference cannot be evaluated for a curve.
+    pub fn effect_pages(&self, studied: &[Studied], check: &Check) -> Result<Vec<Page>, RunError> {
         let gates: Vec<&Judgement> = check.gates.iter().collect();
         let of: Vec<Vec<&Judgement>> = studied
             .iter()
@@ -37,11 +42,15 @@ impl Run {
                 gates.iter().copied().filter(own).collect()
             })
             .collect();
+        let registry = self.project.registry();
+        let forms = studied.iter().map(|studied| registry.forms_of(studied.effect).collect());
+        let forms: Vec<Vec<_>> = forms.collect();
         let evidence: Vec<Evidence<'_>> = studied
             .iter()
-            .zip(&of)
-            .map(|(studied, gates)| Evidence {
+            .zip(of.iter().zip(&forms))
+            .map(|(studied, (gates, forms))| Evidence {
                 effect: studied.effect,
+                forms,
                 study: &studied.study,
                 costs: &studied.costs,
                 subjects: &studied.subjects,
@@ -51,6 +60,25 @@ impl Run {
             .collect();
         let mut pages = vec![index_page(&evidence, &gates)];
         pages.extend(evidence.iter().map(effect_page).collect::<Result<Vec<Page>, _>>()?);
+        Ok(pages)
+    }
+
+    /// Renders every scene of the project and writes the report on `studied`, what was measured of some
+    /// effects or all, with the verdicts of `check` into `folder`. `watch` is told what is rendered.
+    ///
+    /// # Errors
+    /// If anything of the project cannot be rendered or written.
+    pub fn report_on(
+        &self,
+        studied: &[Studied],
+        folder: &Path,
+        check: &Check,
+        watch: &(dyn Fn(&str) + Sync),
+    ) -> Result<Written, RunError> {
+        let scenes = self.rendered(watch)?;
+        watch("the report");
+        let gates: Vec<&Judgement> = check.gates.iter().collect();
+        let mut pages = self.effect_pages(studied, check)?;
         if !scenes.is_empty() {
             let on_scenes = |of: &&Judgement| of.gate.subject.starts_with(SCENES);
             let gates: Vec<&Judgement> = gates.iter().copied().filter(on_scenes).collect();

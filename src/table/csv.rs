@@ -25,6 +25,13 @@ struct Header {
     is_uncertainty: bool,
 }
 
+impl Header {
+    /// The name as written: `u(name)` for an uncertainty.
+    fn label(&self) -> String {
+        if self.is_uncertainty { format!("u({})", self.name) } else { self.name.clone() }
+    }
+}
+
 impl Table {
     /// Reads a CSV file of finite numbers. The origin is the file with its SHA-256.
     ///
@@ -43,7 +50,7 @@ impl Table {
         let bytes = store::read(path)?;
         let origin = path.display().to_string();
         let mut table = Self::parse_csv(&origin, store::text(&origin, &bytes)?, options)?;
-        table.origin = format!("{origin} (sha256 {})", store::sha256_hex(&bytes));
+        table.origin = store::origin(path, &bytes);
         Ok(table)
     }
 
@@ -198,11 +205,7 @@ fn parse_header(origin: &str, line: u64, record: &StringRecord) -> Result<Vec<He
             return Err(TableError::DuplicateColumn {
                 origin: origin.into(),
                 line,
-                name: if header.is_uncertainty {
-                    format!("u({})", header.name)
-                } else {
-                    header.name
-                },
+                name: header.label(),
             });
         }
         headers.push(header);
@@ -272,22 +275,18 @@ impl Place<'_> {
         header: &Header,
         options: ReadOptions,
     ) -> Result<f64, TableError> {
-        let column = || match header.is_uncertainty {
-            true => format!("u({})", header.name),
-            false => header.name.clone(),
-        };
         let value: f64 = cell.parse().map_err(|_| TableError::NotANumber {
             origin: self.origin.into(),
             line: self.line,
             row: self.row,
-            column: column(),
+            column: header.label(),
             got: cell.into(),
         })?;
         if !value.is_finite() && !options.allow_non_finite {
             return Err(TableError::NonFinite {
                 origin: format!("{}:{}", self.origin, self.line),
                 row: self.row.to_string(),
-                column: column(),
+                column: header.label(),
                 got: value,
             });
         }
@@ -317,8 +316,7 @@ fn assemble(origin: &str, headers: Vec<Header>, cells: Vec<Vec<f64>>) -> Result<
                 column: header.name,
             });
         };
-        let label = format!("u({})", header.name);
-        let factor = units::conversion(&header.unit, &column.unit, origin, &label)?;
+        let factor = units::conversion(&header.unit, &column.unit, origin, &header.label())?;
         column.uncertainty = Some(values.into_iter().map(|v| v * factor).collect());
     }
     Ok(Table { columns, origin: origin.into() })

@@ -61,12 +61,11 @@ impl Grid {
         let path = path.as_ref();
         let sidecar = sidecar_path(path);
         let sidecar_origin = sidecar.display().to_string();
-        let axes = store::read(&sidecar)?;
+        let axes = store::read_text(&sidecar)?;
         let pixels = store::read(path)?;
-        let axes = store::text(&sidecar_origin, &axes)?;
         let mut grid =
-            Self::read_exr_bytes(&path.display().to_string(), &pixels, &sidecar_origin, axes)?;
-        grid.origin = format!("{} (sha256 {})", path.display(), store::sha256_hex(&pixels));
+            Self::read_exr_bytes(&path.display().to_string(), &pixels, &sidecar_origin, &axes)?;
+        grid.origin = store::origin(path, &pixels);
         Ok(grid)
     }
 

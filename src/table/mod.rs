@@ -121,20 +121,8 @@ impl Table {
 
     fn check_column(&self, i: usize, column: &Column) -> Result<(), TableError> {
         let origin = &self.origin;
-        if let Some(reason) = csv::name_fault(&column.name) {
-            return Err(TableError::Header {
-                origin: origin.clone(),
-                line: 1,
-                position: i + 1,
-                header: column.name.clone(),
-                reason,
-            });
-        }
-        if self.columns.iter().take(i).any(|other| other.name == column.name) {
-            let name = column.name.clone();
-            return Err(TableError::DuplicateColumn { origin: origin.clone(), line: 1, name });
-        }
-        units::require(&column.unit, origin, &column.name)?;
+        let before = self.columns.iter().take(i).map(|c| c.name.as_str());
+        check_label(origin, &column.name, &column.unit, before)?;
         let length = |name: String, got: usize| {
             let expected = self.rows();
             if got == expected {
@@ -156,4 +144,29 @@ impl Table {
             None => Ok(()),
         }
     }
+}
+
+/// Checks the name and the unit of a column or channel of `origin`, which stands after those called
+/// `before`.
+fn check_label<'a>(
+    origin: &str,
+    name: &str,
+    unit: &str,
+    before: impl ExactSizeIterator<Item = &'a str>,
+) -> Result<(), TableError> {
+    if let Some(reason) = csv::name_fault(name) {
+        return Err(TableError::Header {
+            origin: origin.into(),
+            line: 1,
+            position: before.len() + 1,
+            header: name.into(),
+            reason,
+        });
+    }
+    if before.into_iter().any(|other| other == name) {
+        let (origin, name) = (origin.into(), name.into());
+        return Err(TableError::DuplicateColumn { origin, line: 1, name });
+    }
+    units::require(unit, origin, name)?;
+    Ok(())
 }

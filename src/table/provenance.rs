@@ -83,9 +83,7 @@ impl Provenance {
     /// file without measurer, instrument, reference or DOI.
     pub fn read(folder: impl AsRef<Path>) -> Result<Self, TableError> {
         let path = folder.as_ref().join(FILE_NAME);
-        let origin = path.display().to_string();
-        let bytes = store::read(&path)?;
-        Self::parse(&origin, store::text(&origin, &bytes)?)
+        Self::parse(&path.display().to_string(), &store::read_text(&path)?)
     }
 
     /// Reads the text of a `SOURCE.toml`; `origin` names it in messages.

@@ -53,6 +53,19 @@ pub fn read(path: &Path) -> Result<Vec<u8>, TableError> {
     std::fs::read(path).map_err(|source| TableError::Unreadable { path: path.into(), source })
 }
 
+/// The text of a file.
+///
+/// # Errors
+/// As [`read`] and [`text`].
+pub fn read_text(path: &Path) -> Result<String, TableError> {
+    Ok(text(&path.display().to_string(), &read(path)?)?.to_owned())
+}
+
+/// Where the content `bytes` of a file comes from: `FILE (sha256 …)`.
+pub fn origin(path: &Path, bytes: &[u8]) -> String {
+    format!("{} (sha256 {})", path.display(), sha256_hex(bytes))
+}
+
 /// `bytes` as text.
 ///
 /// # Errors

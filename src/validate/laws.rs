@@ -44,15 +44,7 @@ pub fn judge(
 }
 
 fn verdict(law: &Law, form_name: &str, candidate: &Candidate) -> LawVerdict {
-    let evaluate = |inputs: &[Vec<f32>]| {
-        let columns: Vec<&[f32]> = inputs.iter().map(Vec::as_slice).collect();
-        candidate
-            .form
-            .eval_f32(&candidate.constants_f32, &columns)
-            .map(|mut values| values.swap_remove(0))
-            .unwrap_or_else(|_| vec![f32::NAN; inputs.first().map_or(1, Vec::len)])
-    };
-    let violation = (law.violation)(&evaluate);
+    let violation = (law.violation)(&|points| candidate.values_for_laws(points));
     let known =
         law.known_violations.iter().find(|(name, _)| *name == form_name || *name == candidate.name);
     let standing = match known {

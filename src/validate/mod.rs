@@ -9,7 +9,7 @@ pub mod family;
 pub mod goals;
 pub mod laws;
 pub mod parity;
-pub(crate) mod regions;
+pub mod regions;
 pub mod sampling;
 pub mod standing;
 pub mod study;

@@ -117,7 +117,7 @@ pub fn study(
 /// The reference that the registered form of a subject approximates; empty for a form of the user's.
 fn registered_reference<'p>(project: &'p Project, subject: &Subject) -> &'p str {
     let entry = project.registry().form(&subject.form);
-    entry.and_then(|entry| entry.reference()).unwrap_or_default()
+    entry.and_then(|entry| entry.reference.as_deref()).unwrap_or_default()
 }
 
 fn one(

@@ -1,12 +1,12 @@
 //! Kernels from factors, as printed and as meant; kernels along lines.
 
-use striae::factor::{Decomposition, directional, drawn};
-use striae::table::Grid;
+use striae::factor::{Decomposition, DirectionalKernel, directional};
+use striae::table::{Axis, Channel, Grid};
 
 use super::tables::{cross, disc, display, noisy, table};
 
-fn spacing(axis: &striae::table::Axis) -> f64 {
-    (axis.to - axis.from).abs() / axis.count as f64
+fn spacing(axis: &Axis) -> f64 {
+    axis.step().abs()
 }
 
 fn energy(grid: &Grid, channel: usize) -> f64 {
@@ -85,6 +85,53 @@ fn lines_keep_the_energy_and_say_what_they_lose() {
     }
 }
 
+/// The lines drawn on a table with the given axes: each texel of a line's axis, cut into
+/// `PIECES`, goes to the four nearest texels in proportion, over their area. A line one texel wide
+/// stands for the δ across it; what falls beyond the axes is lost.
+fn drawn(kernels: &[DirectionalKernel], x: &Axis, y: &Axis) -> Grid {
+    const PIECES: usize = 8;
+    let names: Vec<&String> = kernels
+        .first()
+        .map(|k| k.channels.iter().map(|(name, _)| name).collect())
+        .unwrap_or_default();
+    let area = spacing(x) * spacing(y);
+    let mut channels = Vec::with_capacity(names.len());
+    for (index, name) in names.into_iter().enumerate() {
+        let mut values = vec![0.0f64; x.count * y.count];
+        for kernel in kernels {
+            let Some((_, profile)) = kernel.channels.get(index) else { continue };
+            let step = spacing(&kernel.axis);
+            for (i, value) in profile.iter().enumerate().filter(|(_, v)| **v != 0.0) {
+                for piece in 0..PIECES {
+                    let offset = (piece as f64 + 0.5) / PIECES as f64 - 0.5;
+                    let s = kernel.axis.centre(i) + offset * step;
+                    let [dx, dy] = kernel.direction;
+                    let share = value * step / (PIECES as f64 * area);
+                    spread(&mut values, x, y, [s * dx, s * dy], share);
+                }
+            }
+        }
+        let values = values.iter().map(|v| *v as f32).collect();
+        channels.push(Channel::new(name, "1", values));
+    }
+    Grid::new([x.clone(), y.clone()], channels, format!("{} lines", kernels.len())).expect("finite")
+}
+
+fn spread(values: &mut [f64], x: &Axis, y: &Axis, h: [f64; 2], amount: f64) {
+    let (tx, ty) = (x.texel(h[0]), y.texel(h[1]));
+    let (left, top) = (tx.floor(), ty.floor());
+    for (i, wx) in [(left, 1.0 - (tx - left)), (left + 1.0, tx - left)] {
+        for (j, wy) in [(top, 1.0 - (ty - top)), (top + 1.0, ty - top)] {
+            if i < 0.0 || j < 0.0 || i as usize >= x.count {
+                continue;
+            }
+            if let Some(slot) = values.get_mut(j as usize * x.count + i as usize) {
+                *slot += amount * wx * wy;
+            }
+        }
+    }
+}
+
 #[test]
 fn one_line_integrates_across_and_the_drawing_keeps_its_energy() {
     // Gaussian along, any shape across: the kernel along x is the Gaussian times the width.
@@ -97,7 +144,7 @@ fn one_line_integrates_across_and_the_drawing_keeps_its_energy() {
             assert!((value - (-20.0 * s * s).exp()).abs() < 1e-6, "{s}: {value}");
         }
     }
-    let picture = drawn(&lines.kernels, t.x(), t.y()).expect("finite");
+    let picture = drawn(&lines.kernels, t.x(), t.y());
     let part = energy(&picture, 0) / energy(&t, 0);
     assert!((part - 1.0).abs() < 1e-6, "{part}");
     assert!(directional(&t, &[], 1.0).is_err());

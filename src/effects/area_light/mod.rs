@@ -6,7 +6,11 @@ pub mod lights;
 
 pub use lights::{polygon_light, sphere_light};
 
-use crate::effect::{Effect, Goal};
+use include_dir::{Dir, include_dir};
+
+use crate::effect::{Effect, FormText, Goal};
+
+static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/area_light/forms");
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -17,26 +21,29 @@ pub const EFFECT: Effect = Effect {
                   sphere or a polygon spans, and sinc^2(kWq/2) over the difference q that it spans \
                   across the scratch.",
     references: &[band::REFERENCE, lights::SPHERE, lights::TRIANGLE],
-    forms: &joined::<_, 8, 28, 36>(
+    forms: || FormText::embedded("src/effects/area_light/forms", &FORMS),
+    regions: &{
+        let [small_spheres, large_spheres, limbs, grazing_spheres, triangles @ ..] =
+            lights::REGIONS;
+        let [small_triangles, large_triangles, vertices, grazing_triangles] = triangles;
         [
-            band::PRINTED,
-            band::PRINTED_SMALL,
-            band::PRINTED_MEDIUM,
-            band::PRINTED_LEAN,
-            band::PRINTED_LARGE,
-            band::LEAN,
-            band::MEDIUM,
-            band::LARGE,
-        ],
-        lights::FORMS,
-    ),
-    simulators: &[],
-    families: &[],
-    regions: &joined::<_, 3, 8, 11>(
-        [band::LOBES, band::SCENE_BANDS, band::NARROW],
-        lights::REGIONS,
-    ),
-    hard_cases: &joined::<_, 1, 2, 3>([band::HARD_CASES], lights::HARD_CASES),
+            band::LOBES,
+            band::SCENE_BANDS,
+            band::NARROW,
+            small_spheres,
+            large_spheres,
+            limbs,
+            grazing_spheres,
+            small_triangles,
+            large_triangles,
+            vertices,
+            grazing_triangles,
+        ]
+    },
+    hard_cases: &{
+        let [spheres, triangles] = lights::HARD_CASES;
+        [band::HARD_CASES, spheres, triangles]
+    },
     laws: &[
         band::ANTISYMMETRIC,
         band::POSITIVE,
@@ -74,25 +81,38 @@ pub const EFFECT: Effect = Effect {
         "area_light/sphere_line_printed",
         "area_light/triangle_line_printed",
     ],
-    claims: &joined::<_, 5, 8, 13>(band::CLAIMS, lights::CLAIMS),
+    claims: &{
+        let [normalisation, whole_lobes, half_lobes, tail, discrepancies] = band::CLAIMS;
+        let [
+            exponent,
+            largest_deviation,
+            disc,
+            second_root,
+            sign_of_zero,
+            coherence,
+            single_line,
+            normalization,
+        ] = lights::CLAIMS;
+        [
+            normalisation,
+            whole_lobes,
+            half_lobes,
+            tail,
+            discrepancies,
+            exponent,
+            largest_deviation,
+            disc,
+            second_root,
+            sign_of_zero,
+            coherence,
+            single_line,
+            normalization,
+        ]
+    },
     exhibits: |candidates| {
         let mut all = band::exhibits(candidates)?;
         all.extend(lights::exhibits(candidates)?);
         Ok(all)
     },
+    ..Effect::EMPTY
 };
-
-/// The entries of both lists, A + B = N.
-const fn joined<T: Copy, const A: usize, const B: usize, const N: usize>(
-    first: [T; A],
-    second: [T; B],
-) -> [T; N] {
-    assert!(A + B == N);
-    let mut all = [first[0]; N];
-    let mut at = 0;
-    while at < N {
-        all[at] = if at < A { first[at] } else { second[at - A] };
-        at += 1;
-    }
-    all
-}

@@ -2,17 +2,18 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::Vector3;
 
 use super::exhibits::{
     GREEN_NM, cosine_error, disc_furnace, fixed_cosine_error, mean_over_disc, rule_errors,
 };
 use super::preparation::{USUAL, prepared};
 use super::surfaces::{HolographicPaper, Patch, holographic_paper};
-use super::table::{Channels, NORMAL, TableShape, of_surface};
+use super::table::{Channels, NORMAL, TableShape, of_surface, relative_l2};
 use super::{DiffractionError, sinusoid_order_power};
 use crate::effect::claim::REPORT;
 use crate::effect::{Candidates, Claim, ClaimError, Found};
+use crate::factor::Decomposition;
 use crate::measured::spectra::Spectra;
 
 pub(super) const CLAIMS: &[Claim<Candidates>] = &[
@@ -168,33 +169,21 @@ fn cross_terms(_: &Candidates) -> Result<Found, ClaimError> {
         channels: Channels::Spectral,
     };
     let grid = of_surface(&surface, &shape, 2, NORMAL, &Spectra::built_in()?)?.grid;
-    let values = grid.channels.iter().flat_map(|c| c.values.iter().map(|v| f64::from(*v)));
-    let table = DMatrix::from_row_iterator(65, 65, values);
-    let norm = table.norm();
-    let svd = table.svd(true, true);
-    let (Some(u), Some(v)) = (svd.u, svd.v_t) else {
-        return Err(DiffractionError::unusable("table of paper", "no singular values").into());
-    };
-    let error = |rank: usize| {
-        let mut wanted = DMatrix::zeros(65, 65);
-        let (mut left, mut right) = (DMatrix::zeros(65, 1), DMatrix::zeros(1, 65));
-        for m in 0..rank {
-            // The sign of a pair is free: the largest entry of u is positive.
-            let sign = u.column(m)[u.column(m).iamax()].signum();
-            let root = svd.singular_values[m].sqrt();
-            let (a, b) = (u.column(m) * (sign * root), v.row(m) * (sign * root));
-            wanted += &a * &b;
-            left += a;
-            right += b;
-        }
-        (left * right - wanted).norm() / norm
+    let decomposition = Decomposition::of(&grid).map_err(DiffractionError::from)?;
+    // Both kernels are of the same orthogonal terms, so that the share of the table's norm in one is
+    // what it leaves of the table: 1 − e².
+    let error = |rank: usize| -> Result<f64, DiffractionError> {
+        let wanted = decomposition.low_rank(rank)?;
+        let left: f64 = wanted.relative_errors(&grid)?.into_iter().sum();
+        let printed = wanted.cross_rank_printed().product()?;
+        Ok(relative_l2(&printed, &wanted.product()?) * (1.0 - left * left).sqrt())
     };
     let found = format!(
         "both sums run over all ranks, which gives (Σ_m f_v,m)(Σ_n f_h,n) and terms of mixed ranks; \
          the inner one belongs inside, one intermediate picture per rank. For the table of a \
          simulated holographic paper they are {:.2} of its norm at rank 2 and {:.2} at rank 3",
-        error(2),
-        error(3)
+        error(2)?,
+        error(3)?
     );
     Ok(Found::new(found, "does not hold"))
 }

@@ -1,4 +1,5 @@
 use crate::effect::simulator::SettingsError;
+use crate::factor::LowRankError;
 use crate::measured::MeasuredError;
 use crate::table::TableError;
 
@@ -12,6 +13,9 @@ pub enum DiffractionError {
     /// A table.
     #[error(transparent)]
     Table(#[from] TableError),
+    /// Factors of a table.
+    #[error(transparent)]
+    Factors(#[from] LowRankError),
     /// A setting.
     #[error(transparent)]
     Settings(#[from] SettingsError),

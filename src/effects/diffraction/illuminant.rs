@@ -9,8 +9,7 @@
 use std::path::Path;
 
 use super::DiffractionError;
-use crate::measured::linear;
-use crate::measured::spectra::{Spectra, SrgbWeights};
+use crate::measured::spectra::{self, Spectra, SrgbWeights, hat_shares};
 use crate::table::Table;
 
 /// The light that a table is made for.
@@ -24,10 +23,8 @@ pub enum Illuminant {
     E,
     /// A tabulated spectrum; dark where it is not tabulated.
     Tabulated {
-        /// Wavelengths, nm, increasing.
-        wavelength_nm: Vec<f64>,
-        /// Relative power per wavelength.
-        power: Vec<f64>,
+        /// The spectrum.
+        spectrum: spectra::Illuminant,
         /// The file.
         origin: String,
     },
@@ -50,18 +47,12 @@ impl Illuminant {
 
     fn read(path: &Path) -> Result<Self, DiffractionError> {
         let table = Table::read_csv(path)?;
-        let wavelength_nm = table.values_in("wavelength", "nm")?;
-        let power = table.values_in("power", "1")?;
-        let origin = table.origin;
-        if let Some(pair) = wavelength_nm.windows(2).find(|pair| pair[0] >= pair[1]) {
-            let reason = format!("wavelengths do not increase: {pair:?} nm");
-            return Err(DiffractionError::unusable(&origin, reason));
-        }
-        if let Some(bad) = power.iter().find(|p| !(p.is_finite() && **p >= 0.0)) {
+        let spectrum = spectra::Illuminant::of(&table)?;
+        if let Some(bad) = spectrum.powers().iter().find(|p| !(p.is_finite() && **p >= 0.0)) {
             let reason = format!("column \"power\": expected 0 or more, got {bad}");
-            return Err(DiffractionError::unusable(&origin, reason));
+            return Err(DiffractionError::unusable(&table.origin, reason));
         }
-        Ok(Self::Tabulated { wavelength_nm, power, origin })
+        Ok(Self::Tabulated { spectrum, origin: table.origin })
     }
 
     /// Relative power over that of D65; `None` where D65 is not tabulated.
@@ -71,9 +62,7 @@ impl Illuminant {
             Self::D65 => return Some(1.0),
             Self::A => spectra.a().power(wavelength).unwrap_or(0.0),
             Self::E => 1.0,
-            Self::Tabulated { wavelength_nm, power, .. } => {
-                linear(wavelength_nm, power, wavelength).unwrap_or(0.0)
-            }
+            Self::Tabulated { spectrum, .. } => spectrum.power(wavelength).unwrap_or(0.0),
         };
         Some(power / daylight)
     }
@@ -103,16 +92,11 @@ impl Illuminant {
         let ends = nodes_nm.first().zip(nodes_nm.last()).map_or(0.0..=0.0, |(a, b)| *a..=*b);
         for (wavelength, rgb) in fine.iter().zip(&every.weights) {
             let ratio = self.over_d65(*wavelength, spectra).unwrap_or(0.0);
-            let above = nodes_nm.partition_point(|node| node < wavelength);
-            let below = above.saturating_sub(1);
-            let above = above.min(nodes_nm.len() - 1);
-            let span = nodes_nm[above] - nodes_nm[below];
-            let t = if span > 0.0 { (wavelength - nodes_nm[below]) / span } else { 0.0 };
-            for channel in 0..3 {
-                let value = rgb[channel] * ratio;
-                sums[channel] += value;
-                weights[below][channel] += (1.0 - t) * value;
-                weights[above][channel] += t * value;
+            let value = rgb.map(|weight| weight * ratio);
+            sums.iter_mut().zip(value).for_each(|(sum, value)| *sum += value);
+            for (node, share) in hat_shares(nodes_nm, *wavelength) {
+                let weight = weights.get_mut(node).into_iter().flatten();
+                weight.zip(value).for_each(|(weight, value)| *weight += share * value);
             }
             if !ends.contains(wavelength) {
                 outside += rgb[1] * ratio;

@@ -1,8 +1,7 @@
 //! Properties that a power of an order has, whatever the error of a form.
 
-use super::regions::hard_cases;
+use super::regions::{hard_cases, table};
 use crate::effect::{FormValues, Law};
-use crate::numeric::statistics::largest;
 
 const ZERO: &[&str] = &["sinusoid_zero_order"];
 const FIRST: &[&str] = &["sinusoid_first_order"];
@@ -53,7 +52,7 @@ pub(super) const LAWS: &[Law] = &[
         name: "goes out",
         description: "a sinusoid leaves no mirror at the zeros of J_0, 2.4048 and 5.5201: largest g \
                       there. The tolerance is 0.001",
-        violation: |form| at(form, &[2.404_825_6, 5.520_078]),
+        violation: |form| worst(form, [2.404_825_6, 5.520_078], f64::abs),
         tolerance: 0.001,
         references: ZERO,
         known_violations: &[
@@ -65,7 +64,7 @@ pub(super) const LAWS: &[Law] = &[
         name: "goes out (one first order)",
         description: "a sinusoid has no first order at the zero of J_1, 3.8317: largest g there. The \
                       tolerance is 0.001",
-        violation: |form| at(form, &[3.831_706]),
+        violation: |form| worst(form, [3.831_706], f64::abs),
         tolerance: 0.001,
         references: FIRST,
         known_violations: &[
@@ -76,44 +75,41 @@ pub(super) const LAWS: &[Law] = &[
 ];
 
 fn excess(form: FormValues<'_>, most: f64) -> f64 {
-    let mut phases: Vec<f32> =
-        (0..=2000).map(|i| std::f32::consts::TAU * i as f32 / 2000.0).collect();
-    phases.extend(hard_cases().into_iter().map(|phase| phase as f32));
-    let count = phases.len();
-    let found = form(&[phases]);
-    complete(&found, count, |v| (v - most).max(-v).max(0.0))
+    let turn = (0..=2000).map(|i| std::f32::consts::TAU * i as f32 / 2000.0).map(f64::from);
+    worst(form, turn.chain(hard_cases()), |v| (v - most).max(-v).max(0.0))
 }
 
 fn without_relief(form: FormValues<'_>, value: f64) -> f64 {
-    let phases = vec![0.0, 1e-45, 1e-30, 1e-10, 1e-5, 1e-4];
-    let count = phases.len();
-    complete(&form(&[phases]), count, |v| (v - value).abs())
+    worst(form, [0.0, 1e-45, 1e-30, 1e-10, 1e-5, 1e-4], |v| (v - value).abs())
 }
 
-fn at(form: FormValues<'_>, phases: &[f32]) -> f64 {
-    complete(&form(&[phases.to_vec()]), phases.len(), f64::abs)
-}
-
-/// Largest violation; infinite if a value is missing or not a number.
-fn complete(found: &[f32], count: usize, violation: impl Fn(f64) -> f64) -> f64 {
-    if found.len() != count || found.iter().any(|v| v.is_nan()) {
+/// Largest violation over phases; infinite if a value is missing or not a number.
+fn worst(
+    form: FormValues<'_>,
+    phases: impl IntoIterator<Item = f64>,
+    violation: impl Fn(f64) -> f64,
+) -> f64 {
+    let points = table(phases.into_iter().collect(), "laws");
+    let found = form(&points);
+    if found.len() != points.rows() {
         return f64::INFINITY;
     }
-    largest(found.iter().map(|v| violation(f64::from(*v))))
+    Law::worst(found.iter().map(|v| if v.is_nan() { f64::NAN } else { violation(f64::from(*v)) }))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::effects::diffraction::sinusoid_order_power;
+    use crate::table::Table;
 
     #[test]
     fn the_exact_powers_keep_every_law() {
         for law in LAWS {
             let order = u32::from(law.references == FIRST);
-            let exact = |inputs: &[Vec<f32>]| -> Vec<f32> {
-                let power = |a: &f32| sinusoid_order_power(order, f64::from(*a));
-                inputs[0].iter().map(|a| power(a).expect("in the domain") as f32).collect()
+            let exact = |points: &Table| -> Vec<f32> {
+                let power = |a: &f64| sinusoid_order_power(order, *a).expect("in the domain");
+                points.columns[0].values.iter().map(|a| power(a) as f32).collect()
             };
             let violation = (law.violation)(&exact);
             assert!(violation <= law.tolerance, "{}: {violation:e}", law.name);
@@ -123,7 +119,7 @@ mod tests {
     #[test]
     fn forms_that_break_them_are_found() {
         for law in LAWS {
-            let off = |inputs: &[Vec<f32>]| inputs[0].iter().map(|_| 1.5).collect();
+            let off = |points: &Table| vec![1.5; points.rows()];
             assert!((law.violation)(&off) > law.tolerance, "{}", law.name);
             assert!((law.violation)(&|_| vec![f32::NAN]) > law.tolerance, "{}", law.name);
             assert!((law.violation)(&|_| Vec::new()) > law.tolerance, "{}", law.name);

@@ -56,7 +56,6 @@ mod claims;
 mod error;
 mod exhibits;
 mod far_field;
-mod forms;
 mod illuminant;
 mod laws;
 mod orders;
@@ -93,7 +92,11 @@ pub use table::{
     relative_l2,
 };
 
-use crate::effect::{DomainError, Effect, Evaluate, Quantity, Reference};
+use include_dir::{Dir, include_dir};
+
+use crate::effect::{Effect, Evaluate, FormText, Quantity, Reference, arguments};
+
+static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/diffraction/forms");
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -103,16 +106,15 @@ pub const EFFECT: Effect = Effect {
                   from measured or simulated heights or from a pattern at one wavelength. Renderers \
                   filter environments with it; the powers of orders check it.",
     references: &[SINUSOID, ZERO_ORDER, FIRST_ORDER, RECTANGLE],
-    forms: forms::FORMS,
+    forms: || FormText::embedded("src/effects/diffraction/forms", &FORMS),
     simulators: &[simulate::SIMULATOR],
-    families: &[],
     regions: regions::REGIONS,
     hard_cases: &[regions::HARD_CASES],
     laws: laws::LAWS,
-    goals: &[],
     baselines: &["diffraction/zero_first_order", "diffraction/one_first_order"],
     claims: claims::CLAIMS,
     exhibits: exhibits::exhibits,
+    ..Effect::EMPTY
 };
 
 const ORDER: Quantity = Quantity { name: "order", unit: "1", domain: "whole, 0 to 10" };
@@ -127,7 +129,7 @@ const SINUSOID: Reference = Reference {
     accuracy: "absolute error <= 1e-13 (tests/diffraction.rs)",
     source: "Jacobi-Anger expansion; Goodman, Introduction to Fourier Optics, 4.4.4",
     evaluate: Evaluate::Scalar(|point| {
-        let [order, phase] = exactly(point)?;
+        let [order, phase] = arguments(point)?;
         sinusoid_order_power(reference::whole(order)?, phase)
     }),
 };
@@ -138,7 +140,7 @@ pub(super) const ZERO_ORDER: Reference = Reference {
     description: "share of the power that a sinusoidal relief leaves in the mirror direction, J_0(a)^2",
     arguments: &[PHASE],
     evaluate: Evaluate::Scalar(|point| {
-        let [phase] = exactly(point)?;
+        let [phase] = arguments(point)?;
         sinusoid_order_power(0, phase)
     }),
     ..SINUSOID
@@ -150,7 +152,7 @@ pub(super) const FIRST_ORDER: Reference = Reference {
     description: "share of the power that a sinusoidal relief sends into one first order, J_1(a)^2",
     arguments: &[PHASE],
     evaluate: Evaluate::Scalar(|point| {
-        let [phase] = exactly(point)?;
+        let [phase] = arguments(point)?;
         sinusoid_order_power(1, phase)
     }),
     ..SINUSOID
@@ -165,19 +167,10 @@ const RECTANGLE: Reference = Reference {
     accuracy: "absolute error <= 1e-13 (tests/diffraction.rs)",
     source: "Fourier series of a rectangular phase",
     evaluate: Evaluate::Scalar(|point| {
-        let [order, duty, phase] = exactly(point)?;
+        let [order, duty, phase] = arguments(point)?;
         rectangular_order_power(reference::whole(order)?, duty, phase)
     }),
 };
-
-/// The arguments, whose number the caller may have got wrong.
-fn exactly<const N: usize>(point: &[f64]) -> Result<[f64; N], DomainError> {
-    point.try_into().map_err(|_| DomainError {
-        quantity: "number of arguments",
-        expected: "that of the reference",
-        got: point.len() as f64,
-    })
-}
 
 #[cfg(test)]
 mod tests;

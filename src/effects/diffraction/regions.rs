@@ -78,7 +78,7 @@ fn up_to(to: f64, seed: u64) -> Table {
     table(phases, "spaced and seeded phases")
 }
 
-fn table(phases: Vec<f64>, origin: &str) -> Table {
+pub(super) fn table(phases: Vec<f64>, origin: &str) -> Table {
     let columns = vec![Column::new("phase", "rad", phases)];
     points::rounded(Table { columns, origin: format!("{origin} of diffraction") })
 }

@@ -250,13 +250,11 @@ fn assembled(
 
 /// Relative difference of two tables of one shape, in the L2 norm over all channels.
 pub fn relative_l2(table: &Grid, reference: &Grid) -> f64 {
-    let values = |grid: &Grid| -> Vec<f64> {
-        grid.channels.iter().flat_map(|c| c.values.iter().map(|v| f64::from(*v))).collect()
+    let texels = |channels: &[Channel]| -> Vec<f64> {
+        channels.iter().flat_map(|c| c.values.iter().map(|v| f64::from(*v))).collect()
     };
-    let (a, b) = (values(table), values(reference));
-    let difference: f64 = a.iter().zip(&b).map(|(a, b)| (a - b) * (a - b)).sum();
-    let norm: f64 = b.iter().map(|b| b * b).sum();
-    (difference / norm).sqrt()
+    let pairs = texels(&table.channels).into_iter().zip(texels(&reference.channels));
+    crate::numeric::statistics::relative_l2(pairs)
 }
 
 /// Power per texel at one wavelength, with the far field that it comes from.

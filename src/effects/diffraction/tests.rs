@@ -7,7 +7,7 @@ use crate::measured::spectra::Spectra;
 
 #[test]
 fn findings_are_all_evaluated() {
-    let findings = check(EFFECT.claims, &EFFECT.written().expect("candidates"));
+    let findings = check(EFFECT.claims, &crate::effects::written(&EFFECT));
     println!("{findings:#?}");
     assert_eq!(findings.len(), 7);
     assert!(findings.iter().all(|f| f.verdict != "not evaluated"));

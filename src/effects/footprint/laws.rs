@@ -1,6 +1,7 @@
 //! Properties that a mean over a footprint has, whatever the error of a form.
 
 use super::hard_cases::{HALF_EXTENTS, offsets};
+use super::regions::table;
 use crate::effect::{FormValues, Law};
 
 /// References of infinite scratches.
@@ -91,19 +92,13 @@ const CAMERA: &str = "fitted where cameras are, which see few footprints below h
 const GAUSSIAN: &str =
     "a Gaussian stays one: 25 % too high at the centre of a chord, 44 % off at 0.9 h";
 
-/// Values of a form that takes (h, s), or with them A_P/A_C, here of a circle and of an ellipse 8
-/// times as long as wide.
-fn values(form: FormValues<'_>, h: &[f32], s: &[f32]) -> Vec<Vec<f32>> {
-    let plain = form(&[h.to_vec(), s.to_vec()]);
-    if !h.is_empty() && plain.iter().all(|v| v.is_nan()) {
-        let with_area = |elongation: f32| {
-            let area_ratio = h.iter().map(|h| elongation * h * h).collect();
-            form(&[h.to_vec(), s.to_vec(), area_ratio])
-        };
-        vec![with_area(1.0), with_area(8.0)]
-    } else {
-        vec![plain]
-    }
+/// Values at (h, s), where A_P/A_C counts of a circle and of an ellipse 8 times as long as wide.
+fn values(form: FormValues<'_>, h: &[f32], s: &[f32]) -> [Vec<f32>; 2] {
+    [1.0, 8.0].map(|elongation| {
+        let row = |(h, s): (&f32, &f32)| [*h, *s, elongation * h * h].map(f64::from);
+        let rows: Vec<[f64; 3]> = h.iter().zip(s).map(row).collect();
+        form(&table(["h", "s", "area_ratio"], &rows, "laws"))
+    })
 }
 
 fn hard_points() -> (Vec<f32>, Vec<f32>) {
@@ -173,16 +168,11 @@ fn largest(
 mod tests {
     use super::super::reference::response;
     use super::*;
+    use crate::table::Table;
 
-    fn exact(inputs: &[Vec<f32>]) -> Vec<f32> {
-        match inputs {
-            [h, s] => h
-                .iter()
-                .zip(s)
-                .map(|(&h, &s)| response(h.into(), s.into()).expect("in the domain") as f32)
-                .collect(),
-            _ => vec![f32::NAN],
-        }
+    fn exact(points: &Table) -> Vec<f32> {
+        let [h, s] = [0, 1].map(|at| points.columns[at].values.iter());
+        h.zip(s).map(|(&h, &s)| response(h, s).expect("in the domain") as f32).collect()
     }
 
     #[test]
@@ -196,7 +186,9 @@ mod tests {
 
     #[test]
     fn forms_that_break_them_are_found() {
-        let tilted = |inputs: &[Vec<f32>]| inputs[1].iter().map(|s| 1.1 + 0.1 * s).collect();
+        let tilted = |points: &Table| {
+            points.columns[1].values.iter().map(|s| (1.1 + 0.1 * s) as f32).collect()
+        };
         for law in LAWS {
             assert!((law.violation)(&tilted) > law.tolerance, "{}", law.name);
             assert!((law.violation)(&|_| vec![f32::NAN]) > law.tolerance, "{}", law.name);

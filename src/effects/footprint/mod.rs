@@ -46,7 +46,6 @@
 mod claims;
 mod end;
 mod exhibits;
-mod forms;
 mod hard_cases;
 mod laws;
 mod line;
@@ -57,7 +56,11 @@ mod regions;
 pub use end::{ScratchEnd, response_at_end};
 pub use reference::{coverage, response};
 
-use crate::effect::{DomainError, Effect, Evaluate, Goal, Quantity, Reference};
+use include_dir::{Dir, include_dir};
+
+use crate::effect::{Effect, Evaluate, FormText, Goal, Quantity, Reference, arguments};
+
+static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/footprint/forms");
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -68,9 +71,7 @@ pub const EFFECT: Effect = Effect {
                   both once per scratch and pixel; they make thin scratches connected lines \
                   instead of dotted ones.",
     references: &[RESPONSE, COVERAGE, END],
-    forms: forms::FORMS,
-    simulators: &[],
-    families: &[],
+    forms: || FormText::embedded("src/effects/footprint/forms", &FORMS),
     regions: regions::REGIONS,
     hard_cases: hard_cases::HARD_CASES,
     laws: laws::LAWS,
@@ -94,6 +95,7 @@ pub const EFFECT: Effect = Effect {
     baselines: &["footprint/eq16", "footprint/coverage_blend_area", "footprint/end_contained"],
     claims: claims::CLAIMS,
     exhibits: exhibits::exhibits,
+    ..Effect::EMPTY
 };
 
 const H: Quantity = Quantity { name: "h", unit: "1", domain: "[0, 1e4]" };
@@ -109,7 +111,7 @@ const RESPONSE: Reference = Reference {
                (tests/footprint.rs)",
     source: "velinov2018 eq. 10 and 13, integrated exactly",
     evaluate: Evaluate::Scalar(|point| {
-        let [h, s] = exactly(point)?;
+        let [h, s] = arguments(point)?;
         response(h, s)
     }),
 };
@@ -124,7 +126,7 @@ const COVERAGE: Reference = Reference {
                (tests/footprint.rs)",
     source: "velinov2018 eq. 17 and 18, integrated exactly",
     evaluate: Evaluate::Scalar(|point| {
-        let [h, s] = exactly(point)?;
+        let [h, s] = arguments(point)?;
         coverage(h, s)
     }),
 };
@@ -146,19 +148,10 @@ const END: Reference = Reference {
     accuracy: "error <= 1e-9 of footprint_response (tests/footprint.rs)",
     source: "velinov2018 eq. 5 with xi_1 = 0, integrated over the footprint",
     evaluate: Evaluate::Scalar(|point| {
-        let [half_extent, half_length, shear, offset, end] = exactly(point)?;
+        let [half_extent, half_length, shear, offset, end] = arguments(point)?;
         response_at_end(ScratchEnd { half_extent, half_length, shear, offset, end })
     }),
 };
-
-/// The arguments, whose number the caller may have got wrong.
-fn exactly<const N: usize>(point: &[f64]) -> Result<[f64; N], DomainError> {
-    point.try_into().map_err(|_| DomainError {
-        quantity: "number of arguments",
-        expected: "that of the reference",
-        got: point.len() as f64,
-    })
-}
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,7 @@
 //! Every form, with the constants written in its text, at the hard points; the paper's numbers.
 
 use super::EFFECT;
+use crate::effect::FormLibrary;
 use crate::effect::claim::check;
 use crate::form::Form;
 
@@ -14,7 +15,8 @@ fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
 #[test]
 fn forms_are_finite_and_not_negative_at_every_hard_point() {
     let mut judged = 0;
-    for entry in EFFECT.forms {
+    let forms = FormLibrary::new(&[&EFFECT]).expect("registered");
+    for entry in forms.iter() {
         let form = entry.load().expect("a form");
         for region in EFFECT.hard_cases {
             let table = (region.points)();
@@ -31,12 +33,12 @@ fn forms_are_finite_and_not_negative_at_every_hard_point() {
             }
         }
     }
-    assert_eq!(judged, EFFECT.forms.len());
+    assert_eq!(judged, forms.iter().count());
 }
 
 #[test]
 fn findings_agree_with_the_derivations() {
-    let findings = check(EFFECT.claims, &EFFECT.written().expect("candidates"));
+    let findings = check(EFFECT.claims, &crate::effects::written(&EFFECT));
     let found: Vec<&str> = findings.iter().map(|f| f.found.as_str()).collect();
     println!("{found:#?}");
     assert!(findings.iter().all(|f| f.verdict != "not evaluated"));

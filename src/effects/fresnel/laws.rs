@@ -2,7 +2,10 @@
 //!
 //! Monotonicity is not among them: a metal reflects less at its pseudo-Brewster angle than head-on.
 
-use crate::effect::{FormValues, Law};
+use std::iter::repeat;
+
+use crate::effect::{FormValues, Law, points};
+use crate::table::Table;
 
 /// Two units in the last place of 1: what rounding the last sum may cost.
 const ROUNDING: f64 = 2.4e-7;
@@ -90,40 +93,32 @@ fn worst(
 /// (mu, f_normal, value) over all pairs.
 ///
 /// Forms of this effect take mu and f_normal; some also the reflectance at the edge, and a weight
-/// takes mu alone, which is the same as f_normal = 0. An evaluator answers the wrong number of
-/// columns with nothing but NaN, so the three are tried in turn.
+/// takes mu alone, which is the same as f_normal = 0.
 fn answers(form: FormValues<'_>, mu: &[f32], f_normal: &[f32]) -> Vec<(f32, f32, f32)> {
-    let pairs = |f_normal: &[f32]| -> Vec<(f32, f32)> {
-        f_normal.iter().flat_map(|f| mu.iter().map(move |mu| (*mu, *f))).collect()
-    };
-    let column = |pairs: &[(f32, f32)], part: fn(&(f32, f32)) -> f32| -> Vec<f32> {
-        pairs.iter().map(part).collect()
-    };
-    let (with_f, alone) = (pairs(f_normal), pairs(&[0.0]));
-    let cosines = column(&with_f, |pair| pair.0);
-    let normals = column(&with_f, |pair| pair.1);
-    let edges = column(&with_f, |pair| pair.1 + (1.0 - pair.1) * 0.4);
-    for (pairs, inputs) in [
-        (&with_f, vec![cosines.clone(), normals.clone()]),
-        (&with_f, vec![cosines, normals, edges]),
-        (&alone, vec![column(&alone, |pair| pair.0)]),
-    ] {
-        let values = form(&inputs);
-        if values.iter().any(|value| !value.is_nan()) {
-            return pairs.iter().zip(values).map(|((mu, f), value)| (*mu, *f, value)).collect();
-        }
-    }
-    with_f.into_iter().map(|(mu, f)| (mu, f, f32::NAN)).collect()
+    let rows: Vec<[f64; 3]> = f_normal
+        .iter()
+        .flat_map(|f| mu.iter().map(move |mu| [*mu, *f, f + (1.0 - f) * 0.4].map(f64::from)))
+        .collect();
+    let columns = ["mu", "f_normal", "f_edge"].map(|name| (name, "1"));
+    let points = points::of_rows(columns, &rows, "laws of fresnel".into());
+    let cosines = Table { columns: points.columns[..1].to_vec(), ..Table::default() };
+    let weights = Some(form(&cosines)).filter(|values| values.iter().any(|v| !v.is_nan()));
+    let with_f = if weights.is_some() { 0.0 } else { 1.0 };
+    // What is missing is not a number.
+    let values = weights.unwrap_or_else(|| form(&points)).into_iter().chain(repeat(f32::NAN));
+    let answer = |(&[mu, f, _], value): (&[f64; 3], f32)| (mu as f32, with_f * f as f32, value);
+    rows.iter().zip(values).map(answer).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn schlick(inputs: &[Vec<f32>]) -> Vec<f32> {
-        match inputs {
-            [mu, f_normal] => {
-                mu.iter().zip(f_normal).map(|(mu, f)| f + (1.0 - f) * (1.0 - mu).powi(5)).collect()
+    fn schlick(points: &Table) -> Vec<f32> {
+        match points.columns.as_slice() {
+            [mu, f_normal, ..] => {
+                let schlick = |(mu, f): (&f64, &f64)| (f + (1.0 - f) * (1.0 - mu).powi(5)) as f32;
+                mu.values.iter().zip(&f_normal.values).map(schlick).collect()
             }
             _ => vec![f32::NAN],
         }
@@ -139,8 +134,8 @@ mod tests {
 
     #[test]
     fn a_form_that_breaks_them_is_found() {
-        let tilted = |inputs: &[Vec<f32>]| match inputs {
-            [mu] => mu.iter().map(|mu| 1.1 - mu).collect(),
+        let tilted = |points: &Table| match points.columns.as_slice() {
+            [mu] => mu.values.iter().map(|mu| (1.1 - mu) as f32).collect(),
             _ => vec![f32::NAN],
         };
         for law in LAWS {

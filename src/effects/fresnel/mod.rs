@@ -35,14 +35,17 @@
 //! `rational_tied` makes use of that.
 
 mod claims;
-mod forms;
 mod hard_cases;
 mod laws;
 pub mod materials;
 pub mod reference;
 
-use crate::effect::{DomainError, Effect, Evaluate, Quantity, Reference, Region};
+use include_dir::{Dir, include_dir};
+
+use crate::effect::{Effect, Evaluate, FormText, Quantity, Reference, Region, arguments};
 use crate::table::{Column, Table};
+
+static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/fresnel/forms");
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -52,16 +55,14 @@ pub const EFFECT: Effect = Effect {
                   colour of a metal and of its edges, the sheen of glass. Every microfacet model \
                   evaluates it once per light and colour channel.",
     references: &[CONDUCTOR, DIELECTRIC, SCHLICK_WEIGHT],
-    forms: forms::FORMS,
-    simulators: &[],
+    forms: || FormText::embedded("src/effects/fresnel/forms", &FORMS),
     families: &[materials::FAMILY],
     regions: &[ALL_ANGLES],
     hard_cases: &[hard_cases::HARD_CASES],
     laws: laws::LAWS,
-    goals: &[],
     baselines: &["fresnel/schlick"],
     claims: claims::CLAIMS,
-    exhibits: |_| Ok(Vec::new()),
+    ..Effect::EMPTY
 };
 
 const MU: Quantity = Quantity { name: "mu", unit: "1", domain: "[0, 1]" };
@@ -78,7 +79,7 @@ const CONDUCTOR: Reference = Reference {
     accuracy: "relative error <= 1e-13 (tests/fresnel.rs; 1.8e-15 at most against mpmath)",
     source: "Born & Wolf, Principles of Optics, 1.5.2 and 14.2",
     evaluate: Evaluate::Scalar(|point| {
-        let [mu, n, k] = exactly(point)?;
+        let [mu, n, k] = arguments(point)?;
         reference::conductor(mu, n, k).map(reference::Reflectance::mean)
     }),
 };
@@ -91,7 +92,7 @@ const DIELECTRIC: Reference = Reference {
     accuracy: "relative error <= 1e-13 (tests/fresnel.rs; 1.8e-15 at most against mpmath)",
     source: "Born & Wolf, Principles of Optics, 1.5.2 to 1.5.4",
     evaluate: Evaluate::Scalar(|point| {
-        let [mu, eta] = exactly(point)?;
+        let [mu, eta] = arguments(point)?;
         reference::dielectric(mu, eta).map(reference::Reflectance::mean)
     }),
 };
@@ -104,19 +105,10 @@ const SCHLICK_WEIGHT: Reference = Reference {
     accuracy: "relative error <= 1e-15 (five roundings)",
     source: "Schlick, Computer Graphics Forum 13(3), 1994, eq. 15",
     evaluate: Evaluate::Scalar(|point| {
-        let [mu] = exactly(point)?;
+        let [mu] = arguments(point)?;
         reference::schlick_weight(mu)
     }),
 };
-
-/// The arguments, whose number the caller may have got wrong.
-fn exactly<const N: usize>(point: &[f64]) -> Result<[f64; N], DomainError> {
-    point.try_into().map_err(|_| DomainError {
-        quantity: "number of arguments",
-        expected: "that of the reference",
-        got: point.len() as f64,
-    })
-}
 
 /// Forms that take F₀ are judged on the held-out points of their family; only the weight, which
 /// takes mu alone, has a region.

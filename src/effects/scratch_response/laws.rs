@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::hard_cases;
-use super::regions::Row;
-use crate::effect::{FormValues, Law};
+use super::regions::{COLUMNS, Row};
+use crate::effect::{FormValues, Law, points};
 use crate::numeric::statistics::{largest, sum};
 
 const SINGLE: &[&str] = &["scratch_reflectance", "scratched_mirror_reflectance"];
@@ -20,7 +20,7 @@ pub(super) const LAWS: &[Law] = &[
     Law {
         name: "non-negative",
         description: "Finite and never negative: largest magnitude of a negative value over the hard cases.",
-        violation: |form| worst(values(form, &hard_cases::rows()).iter().map(|v| -f64::from(*v))),
+        violation: negative,
         references: SINGLE,
         known_violations: &[
             ("scratch_response/published_mirror", WIDE),
@@ -34,21 +34,14 @@ pub(super) const LAWS: &[Law] = &[
     Law {
         name: "non-negative pair",
         description: "The same for two scratches.",
-        violation: |form| {
-            worst(form(&columns(&hard_cases::rows(), &PAIR)).iter().map(|v| -f64::from(*v)))
-        },
+        violation: negative,
         references: &["scratch_pair_reflectance"],
         ..Law::EMPTY
     },
     Law {
         name: "non-negative density",
         description: "The same for the density.",
-        violation: |form| {
-            let rows = hard_cases::rows();
-            let of = |taken: &[usize]| form(&columns(&rows, taken));
-            let values = first_defined([of(&DENSITY[..3]), of(&DENSITY)]);
-            worst(values.iter().map(|v| -f64::from(*v)))
-        },
+        violation: negative,
         references: &["scratch_density"],
         ..Law::EMPTY
     },
@@ -78,26 +71,12 @@ pub(super) const LAWS: &[Law] = &[
     },
 ];
 
-/// Columns of forms of one scratch: the longest list; shorter signatures leave out the depth phase
-/// (`mu_sum` or `mu_o`, either eighth), the ends, or both.
-const ONE: [usize; 10] = [0, 1, 2, 3, 4, 5, 6, 8, 9, 7];
-const PAIR: [usize; 12] = [0, 1, 2, 3, 4, 5, 6, 7, 11, 12, 13, 14];
-const DENSITY: [usize; 5] = [0, 3, 6, 8, 9];
-
-fn columns(rows: &[Row], taken: &[usize]) -> Vec<Vec<f32>> {
-    taken.iter().map(|&i| rows.iter().map(|row| row[i] as f32).collect()).collect()
-}
-
-/// Values of a form of one scratch, whichever of the signatures it has.
 fn values(form: FormValues, rows: &[Row]) -> Vec<f32> {
-    let of = |taken: &[usize]| form(&columns(rows, taken));
-    first_defined([of(&ONE), of(&ONE[..9]), of(&[0, 1, 2, 3, 4, 5, 6, 7]), of(&ONE[..7])])
+    form(&points::of_rows(COLUMNS, rows, "laws of scratch_response".to_owned()))
 }
 
-/// The first that is not all NaN; a form answers NaN to columns that are not its own.
-fn first_defined<const N: usize>(candidates: [Vec<f32>; N]) -> Vec<f32> {
-    let defined = candidates.into_iter().find(|values| values.iter().any(|v| !v.is_nan()));
-    defined.unwrap_or_else(|| vec![f32::NAN])
+fn negative(form: FormValues) -> f64 {
+    worst(values(form, &hard_cases::rows()).iter().map(|v| -f64::from(*v)))
 }
 
 fn asymmetry(form: FormValues) -> f64 {

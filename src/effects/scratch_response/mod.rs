@@ -43,7 +43,6 @@ mod amplitude;
 mod claims;
 mod ensemble;
 mod exhibits;
-mod forms;
 mod hard_cases;
 mod laws;
 mod reference;
@@ -55,7 +54,11 @@ pub use surface::{
     Coherence, Directions, Scratch, coherent_amplitude, mirror_amplitude, superposed_svbrdf, svbrdf,
 };
 
-use crate::effect::Effect;
+use include_dir::{Dir, include_dir};
+
+use crate::effect::{Effect, FormText};
+
+static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/scratch_response/forms");
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -71,13 +74,10 @@ pub const EFFECT: Effect = Effect {
         reference::PAIR,
         reference::DENSITY,
     ],
-    forms: forms::FORMS,
-    simulators: &[],
-    families: &[],
+    forms: || FormText::embedded("src/effects/scratch_response/forms", &FORMS),
     regions: regions::REGIONS,
     hard_cases: &[hard_cases::HARD_CASES],
     laws: laws::LAWS,
-    goals: &[],
     baselines: &[
         "scratch_response/published",
         "scratch_response/published_mirror",
@@ -86,6 +86,7 @@ pub const EFFECT: Effect = Effect {
     ],
     claims: claims::CLAIMS,
     exhibits: exhibits::exhibits,
+    ..Effect::EMPTY
 };
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::EFFECT;
 use super::*;
+use crate::effect::FormLibrary;
 use crate::effect::claim::check;
 use crate::form::Form;
 
@@ -17,10 +18,11 @@ fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
 #[test]
 fn laws_hold_or_are_known_not_to() {
     let mut faults = Vec::new();
-    for entry in EFFECT.forms {
-        let form = entry.load().unwrap_or_else(|error| panic!("{}: {error}", entry.name));
-        for law in EFFECT.laws.iter().filter(|law| law.references.contains(&entry.reference)) {
-            let violation = (law.violation)(&|columns| in_f32(&form, columns));
+    for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
+        let candidate = entry.written().expect("a form with its constants");
+        let reference = entry.reference.as_deref().expect("a reference");
+        for law in EFFECT.laws.iter().filter(|law| law.references.contains(&reference)) {
+            let violation = (law.violation)(&|points| candidate.values_for_laws(points));
             let known = law.known_violations.iter().any(|(name, _)| *name == entry.name);
             println!("{}: {} {violation:.3e} (known: {known})", entry.name, law.name);
             if (violation <= law.tolerance) == known {
@@ -66,10 +68,13 @@ fn forms_are_as_accurate_as_measured() {
         ("finite_density", "hard cases", 1.30e-7),
     ];
     let mut held = 0;
-    for entry in EFFECT.forms {
+    for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
         let form = entry.load().unwrap_or_else(|error| panic!("{}: {error}", entry.name));
-        let reference =
-            EFFECT.references.iter().find(|r| r.name == entry.reference).expect("registered");
+        let reference = EFFECT
+            .references
+            .iter()
+            .find(|r| Some(r.name) == entry.reference.as_deref())
+            .expect("registered");
         for region in EFFECT.regions.iter().chain(EFFECT.hard_cases) {
             let table = (region.points)();
             let column =
@@ -175,7 +180,7 @@ fn superposition_without_interference_exceeds_one_by_the_shares() {
 
 #[test]
 fn findings_agree_with_the_derivations() {
-    let findings = check(EFFECT.claims, &EFFECT.written().expect("candidates"));
+    let findings = check(EFFECT.claims, &crate::effects::written(&EFFECT));
     let found: Vec<&str> = findings.iter().map(|f| f.found.as_str()).collect();
     println!("{found:#?}");
     // One scratch of W = σ/20: 1 − √(2/π)/20 + |𝒟|²/(20√π), |𝒟|² = 4 and 0.

@@ -2,12 +2,14 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::PUBLISHED;
 use super::reference::sine_integral;
 use crate::effect::claim::REPORT;
 use crate::effect::{Candidate, Candidates, Claim, ClaimError, Found};
 use crate::form::FormError;
 use crate::numeric::statistics::{mean, rms};
+
+/// Eq. 29, as printed.
+const PUBLISHED: &str = "sine_integral/published";
 
 pub(super) const CLAIMS: &[Claim<Candidates>] = &[
     Claim {
@@ -90,7 +92,7 @@ fn largest(x: &[f64], errors: &[f64]) -> (f64, f64) {
 
 fn constants(candidates: &Candidates) -> Result<Found, ClaimError> {
     let x = fitted_interval();
-    let at_print = rms(&errors(candidates.get(PUBLISHED.name)?, &x)?);
+    let at_print = rms(&errors(candidates.get(PUBLISHED)?, &x)?);
     let mut found = format!("RMS {at_print:.7} as printed on 20001 points");
     for (fit, points) in [("refit_coarse", 401), ("refit", 2001), ("refit_dense", 20_001)] {
         match candidates.get(&format!("sine_integral/{fit}")) {
@@ -112,7 +114,7 @@ fn constants(candidates: &Candidates) -> Result<Found, ClaimError> {
 
 fn near_error(candidates: &Candidates) -> Result<Found, ClaimError> {
     let x = fitted_interval();
-    let errors = errors(candidates.get(PUBLISHED.name)?, &x)?;
+    let errors = errors(candidates.get(PUBLISHED)?, &x)?;
     let (max, at) = largest(&x, &errors);
     Ok(Found::new(
         format!("maximal error {max:.5} at x = ±{:.2}, RMS {:.5}", at.abs(), rms(&errors)),
@@ -121,7 +123,7 @@ fn near_error(candidates: &Candidates) -> Result<Found, ClaimError> {
 }
 
 fn tail(candidates: &Candidates) -> Result<Found, ClaimError> {
-    let published = candidates.get(PUBLISHED.name)?;
+    let published = candidates.get(PUBLISHED)?;
     let far: Vec<f64> = (0..200_000).map(|i| 10.0 * 1e3_f64.powf(f64::from(i) / 2e5)).collect();
     let (max, at) = largest(&far, &errors(published, &far)?);
     // Mean over one period, from which Si itself has next to nothing.
@@ -140,7 +142,7 @@ fn tail(candidates: &Candidates) -> Result<Found, ClaimError> {
 
 fn lobes(candidates: &Candidates) -> Result<Found, ClaimError> {
     let orders = [1.0, 5.0, 100.0];
-    let mut found = energy_errors(candidates.get(PUBLISHED.name)?, orders, TAU)?;
+    let mut found = energy_errors(candidates.get(PUBLISHED)?, orders, TAU)?;
     if let Ok(unbiased) = candidates.get("sine_integral/unbiased_tail") {
         found += &format!("; with the tail unbiased {}", energy_errors(unbiased, orders, TAU)?);
     }
@@ -151,7 +153,7 @@ fn lobes(candidates: &Candidates) -> Result<Found, ClaimError> {
 }
 
 fn half_lobes(candidates: &Candidates) -> Result<Found, ClaimError> {
-    let found = energy_errors(candidates.get(PUBLISHED.name)?, [1.0, 20.0], PI)?;
+    let found = energy_errors(candidates.get(PUBLISHED)?, [1.0, 20.0], PI)?;
     Ok(Found::new(
         format!("energy of the first half of a lobe: {found}"),
         "does not hold: next to nothing is left of it",

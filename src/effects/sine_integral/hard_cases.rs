@@ -107,7 +107,7 @@ fn scene() -> Table {
 }
 
 /// A table of one column, `x`, rounded to f32.
-fn table(points: Vec<f64>, origin: &str) -> Table {
+pub(super) fn table(points: Vec<f64>, origin: &str) -> Table {
     let columns = vec![Column::new("x", "1", points)];
     points::rounded(Table { columns, origin: format!("sine_integral: {origin}") })
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::hard_cases::{hard_cases, table};
 use super::reference::sine_integral;
 use crate::effect::{FormValues, Law};
 use crate::numeric::statistics::{largest, mean};
@@ -65,46 +66,43 @@ const CHORD: &str = "the entry next to the maximum lies short of pi: from there 
                      than the error of the form";
 
 fn oddness(form: FormValues) -> f64 {
-    let x: Vec<f32> =
-        column(super::hard_cases::hard_cases().columns.into_iter().flat_map(|c| c.values));
-    let mirrored = x.iter().map(|x| -x).collect();
-    let (values, mirrored) = (form(&[x]), form(&[mirrored]));
+    let mut points = hard_cases();
+    let values = form(&points);
+    points.columns.iter_mut().flat_map(|column| &mut column.values).for_each(|x| *x = -*x);
+    let mirrored = form(&points);
     largest(values.iter().zip(&mirrored).map(|(a, b)| (f64::from(*a) + f64::from(*b)).abs()))
 }
 
+/// x, rounded to f32, and the values there.
+fn values(form: FormValues, x: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
+    let points = table(x.collect(), "laws");
+    let x = points.columns.iter().flat_map(|column| &column.values);
+    x.zip(form(&points)).map(|(x, value)| (*x, f64::from(value))).collect()
+}
+
 fn tail_excess(form: FormValues) -> f64 {
-    let x: Vec<f32> = column((0..4000).map(|i| 1e3 * 10_f64.powf(f64::from(i) / 4000.0)));
-    let values = form(std::slice::from_ref(&x));
-    largest(
-        x.iter().zip(&values).map(|(x, v)| (f64::from(*v) - FRAC_PI_2).abs() - 1.0 / f64::from(*x)),
-    )
+    let found = values(form, (0..4000).map(|i| 1e3 * 10_f64.powf(f64::from(i) / 4000.0)));
+    largest(found.into_iter().map(|(x, v)| (v - FRAC_PI_2).abs() - 1.0 / x))
 }
 
 fn tail_bias(form: FormValues) -> f64 {
     const POINTS_PER_PERIOD: usize = 256;
     let periods = [16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0];
-    let x: Vec<f32> = column(periods.iter().flat_map(|n| {
+    let x = periods.iter().flat_map(|n| {
         (0..POINTS_PER_PERIOD).map(move |i| TAU * (n + i as f64 / POINTS_PER_PERIOD as f64))
-    }));
-    let values = form(std::slice::from_ref(&x));
-    let scaled: Vec<f64> =
-        x.iter().zip(&values).map(|(x, v)| f64::from(*x) * (f64::from(*v) - FRAC_PI_2)).collect();
+    });
+    let scaled: Vec<f64> = values(form, x).into_iter().map(|(x, v)| x * (v - FRAC_PI_2)).collect();
     largest(scaled.chunks(POINTS_PER_PERIOD).map(|period| mean(period).abs()))
 }
 
 fn excess_over_maximum(form: FormValues) -> f64 {
     let grid = (0..=8192).map(|i| 4.0 * PI * f64::from(i) / 8192.0);
-    let hard = super::hard_cases::hard_cases().columns.into_iter().flat_map(|c| c.values);
-    let x: Vec<f32> = column(grid.chain(hard));
+    let hard = hard_cases().columns.into_iter().flat_map(|c| c.values);
     let maximum = sine_integral(PI);
-    largest(form(&[x]).iter().map(|v| f64::from(*v).abs() - maximum))
+    largest(values(form, grid.chain(hard)).into_iter().map(|(_, v)| v.abs() - maximum))
 }
 
 fn largest_fall(form: FormValues) -> f64 {
-    let x: Vec<f32> = column((0..=4096).map(|i| PI * f64::from(i) / 4096.0));
-    largest(form(&[x]).windows(2).map(|pair| f64::from(pair[0]) - f64::from(pair[1])))
-}
-
-fn column(points: impl Iterator<Item = f64>) -> Vec<f32> {
-    points.map(|x| x as f32).collect()
+    let found = values(form, (0..=4096).map(|i| PI * f64::from(i) / 4096.0));
+    largest(found.windows(2).map(|pair| pair[0].1 - pair[1].1))
 }

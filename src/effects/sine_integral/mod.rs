@@ -26,7 +26,11 @@ mod reference;
 
 pub use reference::{auxiliary, sine_integral};
 
-use crate::effect::{Effect, Evaluate, FormEntry, Quantity, Reference, Source};
+use include_dir::{Dir, include_dir};
+
+use crate::effect::{Effect, Evaluate, FormText, Quantity, Reference};
+
+static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/sine_integral/forms");
 
 /// The effect, as registered.
 pub const EFFECT: Effect = Effect {
@@ -36,16 +40,17 @@ pub const EFFECT: Effect = Effect {
                   light into a sinc squared lobe; integrated over a rectangular light source it is \
                   a difference of two values of Si, taken per light, scratch and wavelength.",
     references: &[REFERENCE],
-    forms: FORMS,
-    simulators: &[],
-    families: &[],
+    forms: || {
+        let mut texts = FormText::embedded("src/effects/sine_integral/forms", &FORMS);
+        texts.extend([64, 256, 1024].map(lookup::text));
+        texts
+    },
     regions: hard_cases::REGIONS,
     hard_cases: &[hard_cases::HARD_CASES],
     laws: laws::LAWS,
-    goals: &[],
     baselines: &["sine_integral/published"],
     claims: claims::CLAIMS,
-    exhibits: |_| Ok(Vec::new()),
+    ..Effect::EMPTY
 };
 
 const REFERENCE: Reference = Reference {
@@ -59,92 +64,6 @@ const REFERENCE: Reference = Reference {
     evaluate: Evaluate::Scalar(|arguments| {
         Ok(sine_integral(arguments.first().copied().unwrap_or(f64::NAN)))
     }),
-};
-
-/// Name of the WGSL function in every form.
-const FUNCTION: &str = "sine_integral";
-
-const FORMS: &[FormEntry] = &[
-    PUBLISHED,
-    FormEntry {
-        name: "sine_integral/auxiliary_small",
-        description: "auxiliary functions rational in |x| over a quadratic, 3 constants, no branch",
-        citation: "striae; the structure of Abramowitz & Stegun 5.2.8",
-        path: "src/effects/sine_integral/forms/auxiliary_small.wgsl",
-        source: Source::Written(include_str!("forms/auxiliary_small.wgsl")),
-        function: FUNCTION,
-        reference: REFERENCE.name,
-    },
-    FormEntry {
-        name: "sine_integral/auxiliary_medium",
-        description: "auxiliary functions rational in |x| over a cubic, 6 constants, no branch",
-        citation: "striae; the structure of Abramowitz & Stegun 5.2.8",
-        path: "src/effects/sine_integral/forms/auxiliary_medium.wgsl",
-        source: Source::Written(include_str!("forms/auxiliary_medium.wgsl")),
-        function: FUNCTION,
-        reference: REFERENCE.name,
-    },
-    FormEntry {
-        name: "sine_integral/auxiliary_lean",
-        description: "auxiliary functions rational in |x| over a quintic that shares the numerator \
-                      of f, 8 constants, no branch, to a few ulp of f32",
-        citation: "striae; the structure of Abramowitz & Stegun 5.2.8",
-        path: "src/effects/sine_integral/forms/auxiliary_lean.wgsl",
-        source: Source::Written(include_str!("forms/auxiliary_lean.wgsl")),
-        function: FUNCTION,
-        reference: REFERENCE.name,
-    },
-    FormEntry {
-        name: "sine_integral/auxiliary_large",
-        description: "odd polynomial to 3, auxiliary functions rational in |x| over a quartic \
-                      beyond, 15 constants, to f32 rounding",
-        citation: "striae; the structure of Abramowitz & Stegun 5.2.8",
-        path: "src/effects/sine_integral/forms/auxiliary_large.wgsl",
-        // The form first, so that its lines keep their numbers in diagnostics.
-        source: Source::Written(concat!(
-            include_str!("forms/auxiliary_large.wgsl"),
-            include_str!("forms/phase.wgsl")
-        )),
-        function: FUNCTION,
-        reference: REFERENCE.name,
-    },
-    FormEntry {
-        name: "sine_integral/lookup_64",
-        source: Source::Generated(lookup::wgsl::<64>),
-        ..LOOKUP
-    },
-    FormEntry {
-        name: "sine_integral/lookup_256",
-        source: Source::Generated(lookup::wgsl::<256>),
-        ..LOOKUP
-    },
-    FormEntry {
-        name: "sine_integral/lookup_1024",
-        source: Source::Generated(lookup::wgsl::<1024>),
-        ..LOOKUP
-    },
-];
-
-/// Eq. 29, which every other form is held against.
-const PUBLISHED: FormEntry = FormEntry {
-    name: "sine_integral/published",
-    description: "tanh, a Lorentzian tail and a cosine, 2 constants",
-    citation: "velinov2018 eq. 29",
-    path: "src/effects/sine_integral/forms/published.wgsl",
-    source: Source::Written(include_str!("forms/published.wgsl")),
-    function: FUNCTION,
-    reference: REFERENCE.name,
-};
-
-/// What the lookups share.
-const LOOKUP: FormEntry = FormEntry {
-    name: "sine_integral/lookup",
-    description: "table from the reference, linear between entries, asymptotic tail beyond",
-    citation: "striae",
-    path: "src/effects/sine_integral/forms/lookup.wgsl",
-    source: Source::Generated(lookup::wgsl::<64>),
-    function: FUNCTION,
-    reference: REFERENCE.name,
 };
 
 #[cfg(test)]

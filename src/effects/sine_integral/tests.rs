@@ -2,8 +2,8 @@
 //! against the laws. The gates hold the fitted constants; this holds what is written.
 
 use super::EFFECT;
-use crate::effect::FormEntry;
 use crate::effect::claim::check;
+use crate::effect::{FormEntry, FormLibrary};
 use crate::form::Form;
 
 fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
@@ -49,10 +49,11 @@ fn forms_are_as_accurate_as_measured() {
         ("sine_integral/lookup_256", [3.00e-4, 2.89e-4, 3.00e-4, 2.89e-4]),
         ("sine_integral/lookup_1024", [5.66e-5, 4.81e-5, 5.65e-5, 4.80e-5]),
     ];
-    assert_eq!(limits.len(), EFFECT.forms.len());
+    let forms = FormLibrary::new(&[&EFFECT]).expect("registered");
+    assert_eq!(limits.len(), forms.iter().count());
     let mut faults = Vec::new();
-    for (entry, (name, limits)) in EFFECT.forms.iter().zip(limits) {
-        assert_eq!(entry.name, name);
+    for (name, limits) in limits {
+        let entry = forms.get(name).expect("registered");
         let form = load(entry);
         let errors = errors(&form);
         println!("{name}: {errors:?} {:?}", form.op_count());
@@ -71,10 +72,10 @@ fn forms_are_as_accurate_as_measured() {
 #[test]
 fn laws_hold_or_are_known_not_to() {
     let mut faults = Vec::new();
-    for entry in EFFECT.forms {
-        let form = load(entry);
+    for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
+        let candidate = entry.written().expect("a form with its constants");
         for law in EFFECT.laws {
-            let violation = (law.violation)(&|columns| in_f32(&form, columns));
+            let violation = (law.violation)(&|points| candidate.values_for_laws(points));
             let known = law.known_violations.iter().any(|(name, _)| *name == entry.name);
             println!("{}: {} {violation:.3e} (known: {known})", entry.name, law.name);
             if (violation <= law.tolerance) == known {
@@ -87,7 +88,7 @@ fn laws_hold_or_are_known_not_to() {
 
 #[test]
 fn forms_are_finite_at_the_ends() {
-    for entry in EFFECT.forms {
+    for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
         let values = in_f32(&load(entry), &[vec![0.0, -0.0, f32::MAX, -f32::MAX, 1e20]]);
         assert!(values.iter().all(|v| v.is_finite()), "{}: {values:?}", entry.name);
         assert_eq!(values[0], 0.0, "{}", entry.name);
@@ -96,7 +97,7 @@ fn forms_are_finite_at_the_ends() {
 
 #[test]
 fn findings_agree_with_the_derivations() {
-    let findings = check(EFFECT.claims, &EFFECT.written().expect("candidates"));
+    let findings = check(EFFECT.claims, &crate::effects::written(&EFFECT));
     let found: Vec<&str> = findings.iter().map(|f| f.found.as_str()).collect();
     println!("{found:#?}");
     assert!(found[1].contains("0.05098 at x = ±3.56, RMS 0.02937"), "{}", found[1]);

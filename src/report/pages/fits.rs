@@ -2,10 +2,11 @@
 
 use super::{Evidence, bare, families};
 use crate::document::{Block, Cell, Column, Section, Table, Verdict};
-use crate::effect::{Effect, Reference};
+use crate::effect::Reference;
 use crate::fit::outcome::{Outcome, Status};
 
-pub(super) fn exact_section(effect: &Effect) -> Section {
+pub(super) fn exact_section(evidence: &Evidence<'_>) -> Section {
+    let effect = evidence.effect;
     let arguments = |reference: &&Reference| {
         let arguments = reference.arguments.iter();
         let arguments = arguments.map(|of| format!("`{}` [{}] in {}", of.name, of.unit, of.domain));
@@ -20,11 +21,11 @@ pub(super) fn exact_section(effect: &Effect) -> Section {
     .column(Column::text("arguments"), arguments)
     .column(Column::text("accuracy"), |reference| Cell::text(reference.accuracy))
     .column(Column::text("source"), |reference| Cell::text(reference.source));
-    let forms = Table::over("Forms: approximations, each one WGSL function.", effect.forms)
-        .column(Column::code("form"), |form| Cell::text(form.name))
-        .column(Column::text("what"), |form| Cell::text(form.description))
-        .column(Column::text("from"), |form| Cell::text(form.citation))
-        .column(Column::code("text"), |form| Cell::text(form.path));
+    let forms = Table::over("Forms: approximations, each one WGSL function.", evidence.forms)
+        .column(Column::code("form"), |form| Cell::text(form.name.as_str()))
+        .column(Column::text("what"), |form| Cell::text(form.description.as_str()))
+        .column(Column::text("from"), |form| Cell::text(form.citation.as_str()))
+        .column(Column::code("text"), |form| Cell::text(form.path.as_str()));
     Section::new("What is exact, and what approximates it").block(references).block(forms)
 }
 

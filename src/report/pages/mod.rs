@@ -11,7 +11,7 @@ mod index;
 mod scenes;
 
 use crate::document::{Block, Cell, Inline, NoticeLevel, Page, Section, number};
-use crate::effect::{Effect, Member};
+use crate::effect::{Effect, FormEntry, Member};
 use crate::fit::FitResult;
 use crate::fit::outcome::{FamilyOutcome, Provenance};
 use crate::gate::Judgement;
@@ -37,6 +37,8 @@ pub struct Evidence<'a> {
     pub study: &'a Study,
     /// Costs.
     pub costs: &'a Costs,
+    /// The registered forms of the effect.
+    pub forms: &'a [&'a FormEntry],
     /// What was judged.
     pub subjects: &'a [Subject],
     /// Held-out members of each family, in the order of `effect.families`.
@@ -52,7 +54,7 @@ pub struct Evidence<'a> {
 pub fn effect_page(evidence: &Evidence<'_>) -> Result<Page, ValidateError> {
     let effect = evidence.effect;
     let mut page = Page::new(effect.name, effect.title, effect.description)
-        .section(fits::exact_section(effect))
+        .section(fits::exact_section(evidence))
         .section(fits::fitted_section(evidence));
     for family in &evidence.study.families {
         page = page.section(families::section(evidence, family)?);

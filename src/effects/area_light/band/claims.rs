@@ -98,12 +98,12 @@ fn largest_error(candidate: &Candidate) -> Result<String, FormError> {
 
 fn whole_lobes(candidates: &Candidates) -> Result<Found, ClaimError> {
     let orders = [1, 5, 100];
-    let errors = relative_errors(candidates.get(PRINTED.name)?, Part::Whole, &orders)?;
+    let errors = relative_errors(candidates.get(PRINTED)?, Part::Whole, &orders)?;
     let found = format!(
         "lobe kWq in [2 pi n, 2 pi (n + 1)], in f32: {}; area_light/band_medium, half lobes included, \
          n = 0 ... 1000: {}",
         percentages(&errors, &orders),
-        largest_error(candidates.get(MEDIUM.name)?)?
+        largest_error(candidates.get(MEDIUM)?)?
     );
     let verdict = if errors.iter().all(|error| *error < -TOLERATED) {
         "does not hold: the spurious tail of eq. 29 takes light from each of these side lobes"
@@ -114,7 +114,7 @@ fn whole_lobes(candidates: &Candidates) -> Result<Found, ClaimError> {
 }
 
 fn half_lobes(candidates: &Candidates) -> Result<Found, ClaimError> {
-    let printed = candidates.get(PRINTED.name)?;
+    let printed = candidates.get(PRINTED)?;
     let orders = [1, 20];
     let first = relative_errors(printed, Part::FirstHalf, &orders)?;
     let second = relative_errors(printed, Part::SecondHalf, &orders)?;
@@ -134,7 +134,7 @@ fn half_lobes(candidates: &Candidates) -> Result<Found, ClaimError> {
 
 fn tail(candidates: &Candidates) -> Result<Found, ClaimError> {
     // x (P - pi) over whole periods: of the true primitive the mean is -2, since P = pi - 2/x + ...
-    let printed = candidates.get(PRINTED.name)?;
+    let printed = candidates.get(PRINTED)?;
     let count = 1024;
     let mean = |order: u32| -> Result<f64, FormError> {
         let x = |i: u32| (TAU * (f64::from(order) + f64::from(i) / f64::from(count))) as f32;
@@ -156,8 +156,8 @@ fn tail(candidates: &Candidates) -> Result<Found, ClaimError> {
 }
 
 fn discrepancies(candidates: &Candidates) -> Result<Found, ClaimError> {
-    let exact_si = candidates.get(PRINTED_LARGE.name)?;
-    let near = worst(candidates.get(PRINTED.name)?, 20)?.0;
+    let exact_si = candidates.get(PRINTED_LARGE)?;
+    let near = worst(candidates.get(PRINTED)?, 20)?.0;
     let (near_exact, far_exact) = (worst(exact_si, 20)?.0, worst(exact_si, 1000)?.0);
     let found = format!(
         "in f32 lobes and half lobes to n = 20 are wrong by {:.2} % with eq. 29 and {:.2} % with Si to the \

@@ -10,11 +10,11 @@ use crate::effect::{Candidates, ClaimError};
 const ORDERS: [u32; 8] = [0, 1, 2, 5, 10, 20, 100, 1000];
 /// Candidates shown, and how they are called.
 const SHOWN: [(&str, &str); 5] = [
-    (PRINTED.name, "as printed"),
-    (PRINTED_LARGE.name, "eq. 27, exact Si"),
-    (LEAN.name, "lean"),
-    (MEDIUM.name, "medium"),
-    (LARGE.name, "large"),
+    (PRINTED, "as printed"),
+    (PRINTED_LARGE, "eq. 27, exact Si"),
+    (LEAN, "lean"),
+    (MEDIUM, "medium"),
+    (LARGE, "large"),
 ];
 
 /// What the band integral shows beyond its fits.

@@ -4,8 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use super::REFERENCE;
 use super::hard_cases::hard_cases;
-use crate::effect::{FormValues, Law, points};
+use super::regions::table;
+use crate::effect::{FormValues, Law};
 use crate::numeric::statistics::largest;
+use crate::table::Table;
 
 const REFERENCES: &[&str] = &[REFERENCE.name];
 
@@ -74,57 +76,53 @@ pub(crate) const TOTAL: Law = Law {
     ..Law::EMPTY
 };
 
-/// The bounds of the hard bands.
-fn bands() -> Vec<Vec<f32>> {
-    points::columns_f32(&hard_cases())
+/// The bands with their bounds swapped.
+fn swapped(bands: &Table) -> Table {
+    let mut swapped = bands.clone();
+    for (column, other) in swapped.columns.iter_mut().zip(bands.columns.iter().rev()) {
+        column.values.clone_from(&other.values);
+    }
+    swapped
 }
 
 fn antisymmetry(form: FormValues) -> f64 {
-    let mut bands = bands();
-    let starts = bands[0].clone();
-    bands.iter_mut().for_each(|bounds| bounds.extend(&starts));
-    let values = form(&bands);
-    bands.reverse();
-    let swapped = form(&bands);
+    let mut bands = hard_cases();
+    let starts = bands.columns[0].values.clone();
+    bands.columns.iter_mut().for_each(|bounds| bounds.values.extend(&starts));
+    let (values, swapped) = (form(&bands), form(&swapped(&bands)));
     largest(values.iter().zip(&swapped).map(|(a, b)| (f64::from(*a) + f64::from(*b)).abs()))
 }
 
 fn unevenness(form: FormValues) -> f64 {
-    let mut bands = bands();
-    let values = form(&bands);
-    bands.reverse();
-    bands.iter_mut().flatten().for_each(|x| *x = -*x);
-    let mirrored = form(&bands);
+    let bands = hard_cases();
+    let mut mirrored = swapped(&bands);
+    mirrored.columns.iter_mut().flat_map(|bounds| &mut bounds.values).for_each(|x| *x = -*x);
+    let (values, mirrored) = (form(&bands), form(&mirrored));
     largest(values.iter().zip(&mirrored).map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs()))
 }
 
 fn not_positive(form: FormValues) -> f64 {
-    let bands = bands();
-    let values = form(&bands);
-    let wide = |a: f32, b: f32| (f64::from(b) - f64::from(a)).abs() > 1e-30;
-    let judged: Vec<f32> = bands[0]
-        .iter()
-        .zip(&bands[1])
-        .zip(&values)
-        .filter(|((a, b), _)| wide(**a, **b))
-        .map(|((a, b), v)| if a < b { *v } else { -*v })
+    let bands = hard_cases();
+    let bounds = bands.columns[0].values.iter().zip(&bands.columns[1].values);
+    let judged: Vec<f32> = bounds
+        .zip(form(&bands))
+        .filter(|((a, b), _)| (*b - *a).abs() > 1e-30)
+        .map(|((a, b), value)| if a < b { value } else { -value })
         .collect();
     let failed = judged.iter().filter(|v| v.is_nan() || **v <= 0.0).count();
     failed as f64 / judged.len() as f64
 }
 
 fn seam(form: FormValues) -> f64 {
-    let at = |k: u32| (PI * f64::from(k)) as f32;
-    let parts = (1..=2000).flat_map(|k| [(k - 1, k, k + 1), (k - 1, k, k + 2)]);
-    let (mut a, mut b, mut c) = (Vec::new(), Vec::new(), Vec::new());
-    for (from, cut, to) in parts {
-        a.push(at(from));
-        b.push(at(cut));
-        c.push(at(to));
-    }
-    let first = form(&[a.clone(), b.clone()]);
-    let second = form(&[b, c.clone()]);
-    let whole = form(&[a, c]);
+    let at = |k: u32| PI * f64::from(k);
+    let parts: Vec<[f64; 3]> = (1..=2000)
+        .flat_map(|k| [[k - 1, k, k + 1], [k - 1, k, k + 2]])
+        .map(|ends| ends.map(at))
+        .collect();
+    let between = |from: usize, to: usize| {
+        form(&table(parts.iter().map(|ends| (ends[from], ends[to])).collect(), "seams"))
+    };
+    let (first, second, whole) = (between(0, 1), between(1, 2), between(0, 2));
     largest(first.iter().zip(&second).zip(&whole).map(|((p, q), w)| {
         let (parts, whole) = (f64::from(*p) + f64::from(*q), f64::from(*w));
         if parts == whole { 0.0 } else { ((parts - whole) / whole).abs() }
@@ -132,8 +130,7 @@ fn seam(form: FormValues) -> f64 {
 }
 
 fn excess_over_total(form: FormValues) -> f64 {
-    let reach: Vec<f32> =
-        (0..2000).map(|i| 1e-3 * 1e8_f64.powf(f64::from(i) / 1999.0)).map(|x| x as f32).collect();
-    let negative = reach.iter().map(|x| -x).collect();
-    largest(form(&[negative, reach]).iter().map(|v| f64::from(*v).abs() - TAU))
+    let reach = (0..2000).map(|i| 1e-3 * 1e8_f64.powf(f64::from(i) / 1999.0));
+    let bands = table(reach.map(|x| (-x, x)).collect(), "across 0");
+    largest(form(&bands).iter().map(|v| f64::from(*v).abs() - TAU))
 }

@@ -42,7 +42,7 @@ pub(super) use laws::{ADDITIVE, ANTISYMMETRIC, EVEN, POSITIVE, TOTAL};
 pub use reference::sinc_squared_band;
 pub(super) use regions::{LOBES, NARROW, SCENE_BANDS};
 
-use crate::effect::{Evaluate, FormEntry, Quantity, Reference, Source};
+use crate::effect::{Evaluate, Quantity, Reference};
 
 /// The band integral, as registered.
 pub(super) const REFERENCE: Reference = Reference {
@@ -62,123 +62,16 @@ pub(super) const REFERENCE: Reference = Reference {
     }),
 };
 
-/// Name of the WGSL function in every form.
-const FUNCTION: &str = "sinc_squared_band";
-
 /// Eq. 27 with eq. 29: what ships, and what costs and errors are held against.
-pub(super) const PRINTED: FormEntry = FormEntry {
-    name: "area_light/band_printed",
-    description: "eq. 27 as printed, Si by eq. 29",
-    citation: "velinov2018 eq. 27 and 29",
-    path: "src/effects/area_light/band/forms/printed.wgsl",
-    source: Source::Written(concat!(
-        include_str!("forms/printed.wgsl"),
-        include_str!("../../sine_integral/forms/published.wgsl")
-    )),
-    function: FUNCTION,
-    reference: REFERENCE.name,
-};
-
-/// Eq. 27 with three constants for Si.
-pub(super) const PRINTED_SMALL: FormEntry = FormEntry {
-    name: "area_light/band_printed_small",
-    description: "eq. 27 as printed, Si by auxiliary functions with 3 constants",
-    source: Source::Written(concat!(
-        include_str!("forms/printed.wgsl"),
-        include_str!("../../sine_integral/forms/auxiliary_small.wgsl")
-    )),
-    ..PRINTED_WITH_OWN_SI
-};
-
-/// Eq. 27 with six constants for Si.
-pub(super) const PRINTED_MEDIUM: FormEntry = FormEntry {
-    name: "area_light/band_printed_medium",
-    description: "eq. 27 as printed, Si by auxiliary functions with 6 constants",
-    source: Source::Written(concat!(
-        include_str!("forms/printed.wgsl"),
-        include_str!("../../sine_integral/forms/auxiliary_medium.wgsl")
-    )),
-    ..PRINTED_WITH_OWN_SI
-};
-
-/// Eq. 27 with eight constants for Si.
-pub(super) const PRINTED_LEAN: FormEntry = FormEntry {
-    name: "area_light/band_printed_lean",
-    description: "eq. 27 as printed, Si by auxiliary functions with 8 constants",
-    source: Source::Written(concat!(
-        include_str!("forms/printed.wgsl"),
-        include_str!("../../sine_integral/forms/auxiliary_lean.wgsl")
-    )),
-    ..PRINTED_WITH_OWN_SI
-};
-
+const PRINTED: &str = "area_light/band_printed";
 /// Eq. 27 with Si to the rounding of f32: what is left is the cancellation.
-pub(super) const PRINTED_LARGE: FormEntry = FormEntry {
-    name: "area_light/band_printed_large",
-    description: "eq. 27 as printed, Si to the rounding of f32",
-    source: Source::Written(concat!(
-        include_str!("forms/printed.wgsl"),
-        include_str!("../../sine_integral/forms/auxiliary_large.wgsl"),
-        include_str!("../../sine_integral/forms/phase.wgsl")
-    )),
-    ..PRINTED_WITH_OWN_SI
-};
-
-/// What eq. 27 with a Si of striae shares.
-const PRINTED_WITH_OWN_SI: FormEntry =
-    FormEntry { citation: "velinov2018 eq. 27; Si of striae", ..PRINTED };
-
+const PRINTED_LARGE: &str = "area_light/band_printed_large";
 /// Rule of four nodes; beyond one period the complement over a cubic.
-pub(super) const LEAN: FormEntry = FormEntry {
-    name: "area_light/band_lean",
-    description: "up to one period a fitted rule of four nodes, beyond it the complement over a cubic; \
-                  9 constants",
-    citation: "striae",
-    path: "src/effects/area_light/band/forms/band_lean.wgsl",
-    // The form first, so that its lines keep their numbers in diagnostics.
-    source: Source::Written(concat!(
-        include_str!("forms/band_lean.wgsl"),
-        include_str!("forms/complement.wgsl"),
-        include_str!("forms/rule_of_four.wgsl"),
-        include_str!("forms/band_phase.wgsl")
-    )),
-    function: FUNCTION,
-    reference: REFERENCE.name,
-};
-
+const LEAN: &str = "area_light/band_lean";
 /// Rule of four nodes; beyond one period the complement over a quartic.
-pub(super) const MEDIUM: FormEntry = FormEntry {
-    name: "area_light/band_medium",
-    description: "up to one period a fitted rule of four nodes, beyond it the complement over a quartic; \
-                  13 constants",
-    citation: "striae",
-    path: "src/effects/area_light/band/forms/band_medium.wgsl",
-    source: Source::Written(concat!(
-        include_str!("forms/band_medium.wgsl"),
-        include_str!("forms/complement.wgsl"),
-        include_str!("forms/rule_of_four.wgsl"),
-        include_str!("forms/band_phase.wgsl")
-    )),
-    function: FUNCTION,
-    reference: REFERENCE.name,
-};
-
+const MEDIUM: &str = "area_light/band_medium";
 /// Rule of five nodes; beyond one period the complement over a sextic.
-pub(super) const LARGE: FormEntry = FormEntry {
-    name: "area_light/band_large",
-    description: "up to one period a fitted rule of five nodes, beyond it the complement over a sextic; \
-                  19 constants",
-    citation: "striae",
-    path: "src/effects/area_light/band/forms/band_large.wgsl",
-    source: Source::Written(concat!(
-        include_str!("forms/band_large.wgsl"),
-        include_str!("forms/complement.wgsl"),
-        include_str!("forms/rule_of_five.wgsl"),
-        include_str!("forms/band_phase.wgsl")
-    )),
-    function: FUNCTION,
-    reference: REFERENCE.name,
-};
+const LARGE: &str = "area_light/band_large";
 
 #[cfg(test)]
 mod tests;

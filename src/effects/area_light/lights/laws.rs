@@ -1,7 +1,7 @@
 //! Properties that a form of a light should have whatever its error.
 
 use super::hard_cases::HARD_CASES;
-use crate::effect::{FormValues, Law, points};
+use crate::effect::{FormValues, Law};
 
 /// Radiance is not negative, and finite.
 pub(in super::super) const NOT_NEGATIVE: Law = Law {
@@ -33,7 +33,7 @@ fn negative(form: FormValues<'_>) -> f64 {
     let mut worst = 0.0_f64;
     let mut judged = false;
     for set in &HARD_CASES {
-        let values = form(&points::columns_f32(&(set.points)()));
+        let values = form(&(set.points)());
         // The other light's arguments are not the form's: all NaN.
         if values.iter().all(|value| value.is_nan()) {
             continue;

@@ -68,7 +68,6 @@ mod columns;
 mod draws;
 mod errors;
 mod exhibits;
-mod forms;
 mod hard_cases;
 mod hard_exhibit;
 mod laws;
@@ -79,12 +78,11 @@ mod sphere;
 
 pub(super) use claims::CLAIMS;
 pub(super) use exhibits::exhibits;
-pub(super) use forms::FORMS;
 pub(super) use hard_cases::HARD_CASES;
 pub(super) use laws::NOT_NEGATIVE;
 pub(super) use regions::REGIONS;
 
-use crate::effect::{DomainError, Evaluate, Reference};
+use crate::effect::{DomainError, Evaluate, Reference, arguments};
 
 /// Sphere lights, as registered.
 pub(super) const SPHERE: Reference = Reference {
@@ -96,7 +94,7 @@ pub(super) const SPHERE: Reference = Reference {
                (tests/lights.rs)",
     source: "velinov2018 eq. 3, 10 and 24; silhouette asin(r/p), both roots",
     evaluate: Evaluate::Scalar(|point| {
-        let [kw, ks, view_x, view_y, x, y, z, radius] = exactly(point)?;
+        let [kw, ks, view_x, view_y, x, y, z, radius] = arguments(point)?;
         sphere_light(kw, ks, [view_x, view_y], [x, y, z], radius)
     }),
 };
@@ -111,20 +109,11 @@ pub(super) const TRIANGLE: Reference = Reference {
                (tests/lights.rs)",
     source: "velinov2018 eq. 3, 10 and 24; both roots",
     evaluate: Evaluate::Scalar(|point| {
-        let [kw, ks, view_x, view_y, rest @ ..]: [f64; 13] = exactly(point)?;
+        let [kw, ks, view_x, view_y, rest @ ..]: [f64; 13] = arguments(point)?;
         let [a, b, c] = [0, 3, 6].map(|at| [rest[at], rest[at + 1], rest[at + 2]]);
         polygon_light(kw, ks, [view_x, view_y], &[a, b, c])
     }),
 };
-
-/// The arguments, whose number the caller may have got wrong.
-fn exactly<const N: usize>(point: &[f64]) -> Result<[f64; N], DomainError> {
-    point.try_into().map_err(|_| DomainError {
-        quantity: "number of arguments",
-        expected: "that of the reference",
-        got: point.len() as f64,
-    })
-}
 
 /// What a scratch receives from a sphere light of radiance 1; see [the module](self).
 ///

@@ -16,13 +16,14 @@ const FITTED: usize = 240;
 /// kσ by which regions are grouped.
 pub(super) const KS: [f64; 3] = [60.0, 250.0, 1000.0];
 
+/// A region, from the draw of one of its lights.
 macro_rules! region {
-    ($name:literal, $description:literal, $rows:ident, $seed:literal) => {
+    ($name:literal, $description:literal, $seed:literal, $rows:ident, $one:expr) => {
         Region {
             name: $name,
             description: $description,
-            points: || $rows($seed, POINTS, $name),
-            fitted: Some(|| $rows($seed + 1000, FITTED, $name)),
+            points: || $rows($seed, POINTS, $name, $one),
+            fitted: Some(|| $rows($seed + 1000, FITTED, $name, $one)),
             by: Some("ks"),
             yardstick: Yardstick::RelativeL2,
         }
@@ -35,55 +36,101 @@ pub(in super::super) const REGIONS: [Region; 8] = [
         "small spheres",
         "half-angles of 0.001 to 0.05 rad, log-uniformly, with the origin line across the sphere or \
          up to 2/ks beside it: as large as the lobe is wide, or smaller",
-        small_spheres,
-        11
+        11,
+        spheres,
+        |draw, ks| {
+            let half_angle = draw.log_between(0.001, 0.05);
+            let axis = draw.direction(0.06, 1.0);
+            (axis, half_angle, across(draw, axis, half_angle, 2.0 / ks))
+        }
     ),
     region!(
         "large spheres",
         "half-angles of 0.05 to 0.8 rad, log-uniformly, with the origin line anywhere across the \
          sphere",
-        large_spheres,
-        12
+        12,
+        spheres,
+        |draw, _| {
+            let half_angle = draw.log_between(0.05, 0.8);
+            let axis = draw.direction(0.0, 1.0);
+            (axis, half_angle, across(draw, axis, half_angle, 0.0))
+        }
     ),
     region!(
         "limb of a sphere",
         "half-angles of 0.02 to 0.8 rad with the limb within 2/ks of the origin line",
-        limb_of_a_sphere,
-        13
+        13,
+        spheres,
+        |draw, ks| {
+            let half_angle = draw.log_between(0.02, 0.8);
+            let axis = draw.direction(0.1, 1.0);
+            let limb = draw.one_of(&limbs(axis, half_angle));
+            (axis, half_angle, axis[0] - limb + draw.between(-2.0, 2.0) / ks)
+        }
     ),
     region!(
         "grazing spheres",
         "half-angles of 0.02 to 0.5 rad, the centre within a radius of the horizon, the origin line \
          across the sphere",
-        grazing_spheres,
-        14
+        14,
+        spheres,
+        |draw, _| {
+            let half_angle = draw.log_between(0.02, 0.5);
+            let axis = draw.direction(-0.9 * half_angle.sin(), half_angle.sin());
+            (axis, half_angle, across(draw, axis, half_angle, 0.0))
+        }
     ),
     region!(
         "small triangles",
         "triangles that reach 0.001 to 0.05 rad from their centre, log-uniformly, with the origin line \
          through them or up to 2/ks beside the centre",
-        small_triangles,
-        15
+        15,
+        triangles,
+        |draw, ks| {
+            let centre = draw.direction(0.06, 1.0);
+            let size = draw.log_between(0.001, 0.05);
+            let vertices = draw.triangle(centre, size);
+            let view_x = through(draw, vertices) + draw.between(-2.0, 2.0) / ks;
+            (vertices, view_x)
+        }
     ),
     region!(
         "large triangles",
         "triangles that reach 0.1 to 1 from a centre at distance 1, log-uniformly, with the origin \
          line through them",
-        large_triangles,
-        16
+        16,
+        triangles,
+        |draw, _| {
+            let centre = draw.direction(0.3, 1.0);
+            let size = draw.log_between(0.1, 1.0);
+            let vertices = draw.triangle(centre, size);
+            (vertices, through(draw, vertices))
+        }
     ),
     region!(
         "vertex on the line",
         "large triangles with a vertex within 2/ks of the origin line",
-        vertex_on_the_line,
-        17
+        17,
+        triangles,
+        |draw, ks| {
+            let centre = draw.direction(0.5, 1.0);
+            let size = draw.log_between(0.1, 0.5);
+            let vertices = draw.triangle(centre, size);
+            (vertices, -unit(vertices[0])[0] + draw.between(-2.0, 2.0) / ks)
+        }
     ),
     region!(
         "grazing triangles",
         "triangles across the horizon: they reach 0.1 to 0.8 from a centre at distance 1 that is at \
          most half of that from the horizon",
-        grazing_triangles,
-        18
+        18,
+        triangles,
+        |draw, _| {
+            let size = draw.log_between(0.1, 0.8);
+            let centre = draw.direction(-0.5 * size, 0.5 * size);
+            let vertices = draw.triangle(centre, size);
+            (vertices, through(draw, vertices))
+        }
     ),
 ];
 
@@ -116,39 +163,6 @@ fn across(draw: &mut Draw, axis: [f64; 3], half_angle: f64, beside: f64) -> f64 
     axis[0] - draw.between(low - beside, high + beside)
 }
 
-fn small_spheres(seed: u64, count: usize, origin: &str) -> Table {
-    spheres(seed, count, origin, |draw, ks| {
-        let half_angle = draw.log_between(0.001, 0.05);
-        let axis = draw.direction(0.06, 1.0);
-        (axis, half_angle, across(draw, axis, half_angle, 2.0 / ks))
-    })
-}
-
-fn large_spheres(seed: u64, count: usize, origin: &str) -> Table {
-    spheres(seed, count, origin, |draw, _| {
-        let half_angle = draw.log_between(0.05, 0.8);
-        let axis = draw.direction(0.0, 1.0);
-        (axis, half_angle, across(draw, axis, half_angle, 0.0))
-    })
-}
-
-fn limb_of_a_sphere(seed: u64, count: usize, origin: &str) -> Table {
-    spheres(seed, count, origin, |draw, ks| {
-        let half_angle = draw.log_between(0.02, 0.8);
-        let axis = draw.direction(0.1, 1.0);
-        let limb = draw.one_of(&limbs(axis, half_angle));
-        (axis, half_angle, axis[0] - limb + draw.between(-2.0, 2.0) / ks)
-    })
-}
-
-fn grazing_spheres(seed: u64, count: usize, origin: &str) -> Table {
-    spheres(seed, count, origin, |draw, _| {
-        let half_angle = draw.log_between(0.02, 0.5);
-        let axis = draw.direction(-0.9 * half_angle.sin(), half_angle.sin());
-        (axis, half_angle, across(draw, axis, half_angle, 0.0))
-    })
-}
-
 fn triangles(
     seed: u64,
     count: usize,
@@ -174,41 +188,4 @@ fn through(draw: &mut Draw, vertices: [[f64; 3]; 3]) -> f64 {
     let shares = [1.0 - u, u * (1.0 - v), u * v];
     let point = [0, 1, 2].map(|axis| (0..3).map(|k| shares[k] * vertices[k][axis]).sum());
     -unit(point)[0]
-}
-
-fn small_triangles(seed: u64, count: usize, origin: &str) -> Table {
-    triangles(seed, count, origin, |draw, ks| {
-        let centre = draw.direction(0.06, 1.0);
-        let size = draw.log_between(0.001, 0.05);
-        let vertices = draw.triangle(centre, size);
-        let view_x = through(draw, vertices) + draw.between(-2.0, 2.0) / ks;
-        (vertices, view_x)
-    })
-}
-
-fn large_triangles(seed: u64, count: usize, origin: &str) -> Table {
-    triangles(seed, count, origin, |draw, _| {
-        let centre = draw.direction(0.3, 1.0);
-        let size = draw.log_between(0.1, 1.0);
-        let vertices = draw.triangle(centre, size);
-        (vertices, through(draw, vertices))
-    })
-}
-
-fn vertex_on_the_line(seed: u64, count: usize, origin: &str) -> Table {
-    triangles(seed, count, origin, |draw, ks| {
-        let centre = draw.direction(0.5, 1.0);
-        let size = draw.log_between(0.1, 0.5);
-        let vertices = draw.triangle(centre, size);
-        (vertices, -unit(vertices[0])[0] + draw.between(-2.0, 2.0) / ks)
-    })
-}
-
-fn grazing_triangles(seed: u64, count: usize, origin: &str) -> Table {
-    triangles(seed, count, origin, |draw, _| {
-        let size = draw.log_between(0.1, 0.8);
-        let centre = draw.direction(-0.5 * size, 0.5 * size);
-        let vertices = draw.triangle(centre, size);
-        (vertices, through(draw, vertices))
-    })
 }

@@ -1,3 +1,7 @@
+// approximates: sinusoid_first_order
+// about: a^2/4 damped by a Gaussian, 1 constant
+// cites: striae
+
 // The first order, damped as the mirror is: J_1(a)^2 = a^2/4 (1 - a^2/4 + ...).
 
 override rate: f32 = 0.25;

@@ -1,3 +1,7 @@
+// approximates: sinusoid_first_order
+// about: square of a times a quintic in a^2, 5 constants
+// cites: striae
+
 // J_1 over the phase as a polynomial in its square, 1/2 without relief, up to one turn; squared. Beyond one turn it
 // stays at its last value.
 

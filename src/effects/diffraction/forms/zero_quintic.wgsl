@@ -1,3 +1,7 @@
+// approximates: sinusoid_zero_order
+// about: square of a quintic in a^2, 5 constants
+// cites: striae
+
 // J_0 as a polynomial in the square of the phase, 1 without relief, up to one turn; squared, so that it cannot be
 // negative. Beyond one turn, past its second zero, it stays at its last value.
 

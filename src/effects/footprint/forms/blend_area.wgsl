@@ -1,3 +1,8 @@
+// approximates: footprint_response
+// about: eq. 16 with another blending factor of A_P/A_C, 1 constant
+// cites: striae
+// uses: chord
+
 // The two terms of eq. 16 with another blending factor of the same argument: r^2 / (r^2 + half_way), r = A_P / A_C.
 
 const TWO_OVER_ROOT_PI: f32 = 1.1283791670955126;

@@ -1,3 +1,8 @@
+// approximates: footprint_response
+// about: eq. 16 blended by the half-extent across the scratch, 1 constant
+// cites: striae
+// uses: chord
+
 // The two terms of eq. 16, blended by the half-extent of the footprint across the scratch, on which alone the
 // exact mean depends; the area is not needed.
 

@@ -1,4 +1,3 @@
-
 const COVERAGE_ASYMPTOTE: f32 = 2.5464790894703255;
 
 // The mean of exp(-s^2/2) tends to sqrt(8/pi) sqrt(h^2 - s^2) / h^2.

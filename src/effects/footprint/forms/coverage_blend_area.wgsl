@@ -1,3 +1,8 @@
+// approximates: footprint_coverage
+// about: eq. 18 with the correction of eq. 16 for small footprints
+// cites: velinov2018 eq. 18, corrected as eq. 16
+// uses: chord
+
 // velinov2018 eq. 18 with the correction for small footprints that eq. 16 has: blended by alpha = A_P / (2 A_C) with
 // the value of eq. 17 at the centre of the footprint.
 

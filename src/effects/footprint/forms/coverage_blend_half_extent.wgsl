@@ -1,3 +1,8 @@
+// approximates: footprint_coverage
+// about: eq. 18 corrected by the half-extent across the scratch, 1 constant
+// cites: striae
+// uses: chord
+
 // As coverage_blend_area.wgsl, blended by the half-extent of the footprint across the scratch.
 
 const ROOT_EIGHT_OVER_PI: f32 = 1.5957691216057308;

@@ -1,3 +1,7 @@
+// approximates: footprint_coverage
+// about: Gaussian of the exact integral and variance, no constants
+// cites: striae
+
 // The Gaussian with the integral and the variance of the exact mean: h^2/4 of the ellipse and 1 of exp(-s^2/2).
 
 fn footprint_coverage(h: f32, s: f32) -> f32 {

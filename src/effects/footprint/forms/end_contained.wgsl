@@ -1,3 +1,8 @@
+// approximates: footprint_end
+// about: eq. 16 with the part of the chord past the end
+// cites: velinov2018 eq. 16, corrected
+// uses: chord
+
 // A scratch that begins inside the footprint as velinov2018 has it: eq. 16 with its factor pi, and in l_contained
 // the part of the chord past the end. The second term of eq. 16 knows no end.
 

@@ -1,3 +1,8 @@
+// approximates: footprint_end
+// about: soft chord times a ramp of two square roots, 2 constants of its own
+// cites: striae
+// uses: soft_chord, response
+
 // A scratch that begins inside the footprint: the response of one without end times a smooth ramp.
 //
 // Where the Gaussian weighs the footprint, u has about the mean h s / (2 + h^2) and the variance 1/(4 + 2 h^2): a

@@ -1,3 +1,8 @@
+// approximates: footprint_response
+// about: velinov2018 eq. 16 as printed
+// cites: velinov2018 eq. 16
+// uses: chord
+
 // velinov2018 eq. 16 as printed, over 2 A_C = 2 pi sigma^2. Its first term is
 //   alpha sigma sqrt(pi) l / A_P = alpha 2/sqrt(pi) sqrt(h^2 - s^2) / h^2;
 // the second lacks a factor pi.

@@ -1,3 +1,7 @@
+// approximates: footprint_response
+// about: Gaussian of the exact integral and variance, no constants
+// cites: striae
+
 // The Gaussian with the integral and the variance of the exact mean: an ellipse has the variance h^2/4 across the
 // scratch and exp(-s^2) the variance 1/2. Nothing to fit; right for small footprints only.
 

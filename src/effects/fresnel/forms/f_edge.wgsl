@@ -1,3 +1,9 @@
+// approximates: fresnel_conductor
+// over: fresnel_materials
+// function: f_edge
+// about: Lazanyi with alpha = 6, exact at 82 degrees; nothing free
+// cites: Hoffman, Fresnel equations considered harmful, 2019
+
 // Hoffman 2019: the error term of Lazanyi with alpha = 6 and the depth that makes the form exact
 // at mu = 1/7 (82 degrees), where the reflectance `f_edge` is given. Nothing is fitted.
 

@@ -1,3 +1,9 @@
+// approximates: fresnel_conductor
+// function: f_tint
+// about: Lazanyi with alpha = 6 and a tint of the value at 82 degrees
+// cites: Hoffman, Fresnel equations considered harmful, 2019; Kutz, Hasan & Edmondson, Novel aspects of the
+//     Adobe Standard Material, 2021
+
 // Hoffman's F82 in the tint form of Kutz, Hasan & Edmondson 2021: the error term of Lazanyi with
 // alpha = 6, whose dip is deepest at mu = 1/7 (82 degrees). There the form is `tint` times
 // Schlick's value.

@@ -1,3 +1,8 @@
+// approximates: fresnel_conductor
+// function: gulbrandsen
+// about: reflectivity and edge tint to n and k, high-index conductor formulas, as listed
+// cites: Gulbrandsen, Artist friendly metallic Fresnel, JCGT 3(4), 2014
+
 // Gulbrandsen 2014, as in the paper's listing: reflectivity r and edge tint g give n and k^2, and
 // the conductor formulas follow with |w| = |m|, Re w = n (the limit of a high index).
 override g: f32 = 0.5;

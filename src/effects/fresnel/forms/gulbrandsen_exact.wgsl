@@ -1,3 +1,8 @@
+// approximates: fresnel_conductor
+// function: gulbrandsen_exact
+// about: reflectivity and edge tint to n and k, conductor formulas in full
+// cites: Gulbrandsen, Artist friendly metallic Fresnel, JCGT 3(4), 2014; Born & Wolf 14.2
+
 // Gulbrandsen 2014's map from r and g to n and k^2, followed by the conductor formulas without
 // approximation: on a single wavelength nothing is left to fit but g.
 override g: f32 = 0.5;

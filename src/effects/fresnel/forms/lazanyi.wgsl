@@ -1,3 +1,8 @@
+// approximates: fresnel_conductor
+// function: lazanyi
+// about: Schlick less an error term a mu (1 - mu)^alpha
+// cites: Lazanyi & Szirmay-Kalos, Fresnel term approximations for metals, WSCG 2005
+
 // Lazanyi & Szirmay-Kalos 2005: Schlick's form less an error term a mu (1 - mu)^alpha, which
 // carves the dip that metals have before grazing.
 override a: f32 = 0.5;

@@ -1,3 +1,8 @@
+// approximates: fresnel_conductor
+// function: rational
+// about: (1 - mu)^2 (1 + a mu)/(1 + b mu + c mu^2): one division, no power
+// cites: striae, from the high-index limit of the conductor formulas
+
 // The reflectance leaves its value at normal incidence with the square of 1 - mu, because the
 // first-order changes of the two polarisations cancel, and reaches 1 at grazing. In the limit of
 // a high index what multiplies the square is a ratio of polynomials in mu; these are the lowest

@@ -1,3 +1,8 @@
+// approximates: fresnel_conductor
+// function: rational_tied
+// about: the same with c tied to a and b
+// cites: striae, from the high-index limit of the conductor formulas
+
 // As `rational`, with its third constant tied to the other two: over every measured material
 // c stays close to 11/4 b - 2a - 3. c is not negative, and b > -1: no pole. A compiler folds c.
 override a: f32 = -2.0;

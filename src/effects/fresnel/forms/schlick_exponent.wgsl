@@ -1,3 +1,8 @@
+// approximates: fresnel_conductor
+// function: schlick_exponent
+// about: Schlick with the power fitted
+// cites: after Schlick 1994
+
 // Schlick's form with the power left open. It has no dip, whatever the power.
 override exponent: f32 = 5.0;
 

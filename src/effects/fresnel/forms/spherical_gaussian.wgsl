@@ -1,3 +1,8 @@
+// approximates: fresnel_conductor
+// function: spherical_gaussian
+// about: Schlick with a spherical Gaussian for the power
+// cites: Karis, Real Shading in Unreal Engine 4, SIGGRAPH course 2013
+
 // Karis 2013: Schlick's form with a spherical Gaussian for its weight. Fitted to a metal, the two
 // constants move the knee and its steepness.
 override a: f32 = -5.55473;

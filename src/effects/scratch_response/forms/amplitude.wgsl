@@ -1,3 +1,4 @@
+// uses: lobe
 
 // exp(2 pi i x)
 fn unit_phase(turns: f32) -> vec2<f32> {

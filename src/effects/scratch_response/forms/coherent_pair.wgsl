@@ -1,3 +1,9 @@
+// approximates: scratch_pair_reflectance
+// function: coherent_pair
+// about: mutual interference kept: the reference in f32
+// cites: velinov2018 eq. 2, 8
+// uses: amplitude
+
 // Two infinite scratches with mutual interference, the depth phase at their angles: the reference
 // itself, in f32.
 fn coherent_pair(width_um: f32, depth_um: f32, wavelength_um: f32, sigma_um: f32, xi_along: f32,

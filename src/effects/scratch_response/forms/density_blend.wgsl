@@ -1,3 +1,9 @@
+// approximates: scratched_mirror_reflectance
+// function: density_blend
+// about: no cross term, the mirror dimmed by rho_c
+// cites: velinov2018 eq. 6, 17
+// uses: mirror, lobe, infinite_density
+
 // Eq. 6 with rho_c of eq. 17, the depth phase at its angles: what the blend alone costs.
 fn density_blend(width_um: f32, depth_um: f32, wavelength_um: f32, sigma_um: f32, xi_along: f32,
     xi_across: f32, offset_um: f32, mu_sum: f32) -> f32 {

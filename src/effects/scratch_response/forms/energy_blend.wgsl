@@ -1,3 +1,9 @@
+// approximates: scratched_mirror_reflectance
+// function: energy_blend
+// about: no cross term, the mirror dimmed by the energy that the scratch shows
+// cites: striae
+// uses: mirror, lobe
+
 // The mirror dimmed by the energy of the cross term, |D|^2 times the share of the light that falls
 // into the scratch, W exp(-s_b^2/sigma^2)/(sqrt(pi) sigma): energy is kept for every depth,
 // wavelength and offset.

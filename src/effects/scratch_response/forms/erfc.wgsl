@@ -1,4 +1,3 @@
-
 // erfc x for x >= 0, relative error 1.2e-7: Press et al., Numerical Recipes, erfcc.
 fn complementary_error(x: f32) -> f32 {
     let t = 1.0 / (1.0 + 0.5 * x);

@@ -1,3 +1,9 @@
+// approximates: scratch_pair_reflectance
+// function: incoherent_pair
+// about: no mutual interference
+// cites: velinov2018 eq. 7
+// uses: lobe
+
 // Two infinite scratches without mutual interference, eq. 7, the depth phase at their angles.
 fn incoherent_pair(width_um: f32, depth_um: f32, wavelength_um: f32, sigma_um: f32, xi_along: f32,
     xi_across: f32, offset_um: f32, mu_sum: f32, second_width_um: f32, second_depth_um: f32,

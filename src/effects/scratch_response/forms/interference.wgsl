@@ -1,3 +1,9 @@
+// approximates: scratched_mirror_reflectance
+// function: interference
+// about: infinite scratch, the cross term kept in closed form
+// cites: velinov2018 eq. 1, 8
+// uses: amplitude, lobe
+
 // The cross term kept: |B - S|^2 of a mirror with an infinite scratch, the depth phase at its angles.
 fn interference(width_um: f32, depth_um: f32, wavelength_um: f32, sigma_um: f32, xi_along: f32,
     xi_across: f32, offset_um: f32, mu_sum: f32) -> f32 {

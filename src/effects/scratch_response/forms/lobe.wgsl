@@ -1,4 +1,3 @@
-
 const PI: f32 = 3.141592653589793;
 
 // sin^2(pi x), from the distance of x to the nearest integer: WGSL promises little for its sine of

@@ -1,3 +1,4 @@
+// uses: erfc, lobe
 
 // Share of a scratch under exp(-t^2/2 sigma^2): the peak of its amplitude along itself.
 fn amplitude_share(sigma_um: f32, begin_um: f32, end_um: f32) -> f32 {

@@ -1,3 +1,9 @@
+// approximates: scratch_reflectance
+// function: matched_ends
+// about: finite scratch as a Gaussian of the exact peak and energy, four real error functions
+// cites: striae
+// uses: matched, lobe
+
 // A finite scratch by real error functions, the depth phase at its angles.
 fn matched_ends(width_um: f32, depth_um: f32, wavelength_um: f32, sigma_um: f32, xi_along: f32,
     xi_across: f32, offset_um: f32, begin_um: f32, end_um: f32, mu_sum: f32) -> f32 {

@@ -1,3 +1,9 @@
+// approximates: scratched_mirror_reflectance
+// function: matched_mirror
+// about: finite scratch as a Gaussian of the exact peak and energy, the mirror dimmed by |D|^2 rho_c/2
+// cites: striae
+// uses: matched, mirror, lobe, infinite_density
+
 // Ours, all together: a finite scratch by real error functions and the mirror dimmed by
 // |D|^2 rho_c/2 of the finite scratch, which is the cross term at the peak.
 fn matched_mirror(width_um: f32, depth_um: f32, wavelength_um: f32, sigma_um: f32, xi_along: f32,

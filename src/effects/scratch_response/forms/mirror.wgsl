@@ -1,3 +1,4 @@
+// uses: lobe
 
 // |B|^2/(pi sigma^2 lambda^2) of the smooth mirror.
 fn mirror_reflectance(wavelength_um: f32, sigma_um: f32, xi_along: f32, xi_across: f32) -> f32 {

@@ -1,3 +1,9 @@
+// approximates: scratch_reflectance
+// function: mirror_depth
+// about: infinite scratch, the depth phase in the mirror direction of the viewer
+// cites: striae
+// uses: lobe
+
 // The depth phase in the mirror direction, 2 mu_o in place of mu_i + mu_o: as in eq. 4 it does not
 // move with the light, so that the integrals over lights and footprints stay closed; the scratch is
 // infinite.

@@ -1,3 +1,9 @@
+// approximates: scratched_mirror_reflectance
+// function: peak_blend
+// about: no cross term, the mirror dimmed by |D|^2 rho_c/2: exact at its peak
+// cites: striae
+// uses: mirror, lobe, infinite_density
+
 // The mirror dimmed by the cross term as it is at the peak: |D|^2 rho_c/2 in place of rho_c.
 fn peak_blend(width_um: f32, depth_um: f32, wavelength_um: f32, sigma_um: f32, xi_along: f32,
     xi_across: f32, offset_um: f32, mu_sum: f32) -> f32 {

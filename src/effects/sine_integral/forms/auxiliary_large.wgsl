@@ -1,3 +1,9 @@
+// approximates: sine_integral
+// about: odd polynomial to 3, auxiliary functions rational in |x| over a quartic beyond, 15 constants, to f32
+//     rounding
+// cites: striae; the structure of Abramowitz & Stegun 5.2.8
+// uses: phase
+
 // Si(x) to f32 rounding. Below SWITCH an odd polynomial whose first term is x itself, so that the
 // relative error is small down to 0; above it sgn(x) (pi/2 - f cos u - g sin u), u = |x|, with
 // auxiliary functions (A&S 5.2.8) rational in u over one denominator:

@@ -1,3 +1,8 @@
+// approximates: sine_integral
+// about: auxiliary functions rational in |x| over a quintic that shares the numerator of f, 8 constants, no
+//     branch, to a few ulp of f32
+// cites: striae; the structure of Abramowitz & Stegun 5.2.8
+
 // As auxiliary_medium.wgsl, two degrees higher, to a few ulp of f32:
 //   f = (pi/2 + f_a u + f_b u^2 + d_d u^3 + d_e u^4) / d,
 //   g = (g_a + g_b u + g_c u^2 + d_e u^3) / d,

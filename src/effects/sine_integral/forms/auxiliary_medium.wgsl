@@ -1,3 +1,7 @@
+// approximates: sine_integral
+// about: auxiliary functions rational in |x| over a cubic, 6 constants, no branch
+// cites: striae; the structure of Abramowitz & Stegun 5.2.8
+
 // As auxiliary_small.wgsl, one degree higher:
 //   f = (pi/2 + f_a u + d_c u^2) / d,  g = (g_a + g_b u) / d,  d = 1 + d_a u + d_b u^2 + d_c u^3.
 

@@ -1,3 +1,7 @@
+// approximates: sine_integral
+// about: auxiliary functions rational in |x| over a quadratic, 3 constants, no branch
+// cites: striae; the structure of Abramowitz & Stegun 5.2.8
+
 // Si(x) = sgn(x) (pi/2 - f cos u - g sin u), u = |x|, with auxiliary functions (A&S 5.2.8) rational
 // in u over one denominator, for every u and without a branch:
 //   f = (pi/2 + d_b u) / d,  g = g_a / d,  d = 1 + d_a u + d_b u^2.

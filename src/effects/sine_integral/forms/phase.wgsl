@@ -1,4 +1,3 @@
-
 const TURN: f32 = 6.283185307179586;
 const TURNS_PER_RADIAN: f32 = 0.15915494309189535;
 // 2 pi in two parts (Cody & Waite): the first has 8 bits, so that its product with up to 65535

@@ -1,3 +1,7 @@
+// approximates: sine_integral
+// about: tanh, a Lorentzian tail and a cosine, 2 constants
+// cites: velinov2018 eq. 29
+
 // Si(x), Velinov, Werner & Hullin 2018, eq. 29, as printed:
 //   pi/2 tanh(x) - a x / (1 + (x - sgn(x) b)^2) + sgn(x) (1 - cos x) / (1 + |x|)
 // with a = `tail` and b = `offset`. The tail it leaves is pi/2 + (1 - a - cos x) / x where that of
