@@ -53,8 +53,8 @@ fn monte_carlo_agrees_with_the_reference() {
     for light in [SPHERE, POLYGON] {
         let scene = prepared(&[VIEW, SCRATCH, light, RGB, QUADRATURE, MONTE_CARLO]);
         let rendered = rendered(&scene, Backend::Lanes);
-        let metrics = rendered.monte_carlo_metrics.expect("Monte Carlo was asked for");
-        let test = metrics.z_test.expect("it has standard errors");
+        let metrics = rendered.monte_carlo.expect("Monte Carlo was asked for").metrics;
+        let test = metrics.expect("it is compared").z_test.expect("it has standard errors");
         assert!(test.passes(1e-3), "{test:?}");
         // 64 pixels or more share some light: this is no comparison of black with black.
         let lit = values(&rendered.reference, "").into_iter().filter(|x| **x > 1e-3).count();
@@ -83,7 +83,7 @@ fn lanes_and_device_draw_the_same_picture() {
     let scene = prepared(&[VIEW, SCRATCH, SPHERE, POLYGON, RGB, QUADRATURE, few, LINE]);
     let [here, there] = [Backend::Lanes, Backend::Device(&device)].map(|b| rendered(&scene, b));
     let sampled = |rendered: &Rendered| {
-        rendered.monte_carlo.as_ref().map(|m| m.image.clone()).expect("asked for")
+        rendered.monte_carlo.as_ref().map(|m| m.sampled.image.clone()).expect("asked for")
     };
     let pairs = [
         (sampled(&here), sampled(&there)),
@@ -101,7 +101,8 @@ fn lanes_and_device_draw_the_same_picture() {
             assert!(apart <= 1e-3 * largest && apart.is_finite(), "{name}: {apart} of {largest}");
         }
     }
-    let law = there.convergence.value().expect("two numbers of samples");
+    let law = there.monte_carlo.expect("asked for").convergence;
+    let law = law.value().expect("two numbers of samples");
     // The exponent of so small an image is noise; full scenes measure -0.46 to -0.52.
     assert!(law.rms[1] < law.rms[0], "{law:?}");
 }

@@ -360,10 +360,11 @@ fn monte_carlo_of_a_surface_agrees_with_eq_3() {
     let scene = Scene::parse("small", "small.toml", &text).expect("a scene");
     let scene = PreparedScene::new(scene, &project).expect("its table and maps");
     let rendered = render::render(&scene, Backend::Lanes, &mut |_| ()).expect("renders");
-    let metrics = rendered.monte_carlo_metrics.expect("it was asked for");
+    let sampled = rendered.monte_carlo.expect("it was asked for");
+    let metrics = sampled.metrics.expect("it is compared");
     let test = metrics.z_test.expect("it has standard errors");
     println!("{test:?}, relative RMS {}", metrics.relative_rms);
     assert!(test.passes(1e-3) && test.cells >= 6, "{test:?}");
-    let law = rendered.convergence.value().expect("two numbers of samples");
+    let law = sampled.convergence.value().expect("two numbers of samples");
     assert!(law.rms[1] < law.rms[0] && metrics.relative_rms < 0.1, "{law:?}");
 }

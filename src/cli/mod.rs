@@ -25,7 +25,6 @@ mod output;
 mod points;
 mod progress;
 mod render;
-mod render_table;
 mod simulate;
 
 use std::process::ExitCode;

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
+use serde::Serialize;
 
 use super::Ending;
 use super::context::Context;
 use super::progress;
-use super::render_table::Summary;
 use crate::document::Section;
 use crate::gpu::{self, Device, NoDevice};
+use crate::numeric::measured::Measured;
 use crate::render::image::Image;
 use crate::render::scene::{FIGURES, SHEET};
 use crate::render::sheet::comparison;
@@ -116,6 +117,46 @@ fn device(wanted: Option<BackendName>, context: &Context) -> Result<Option<Devic
                 Ok(None)
             }
         },
+    }
+}
+
+/// What goes to `scene.json`.
+#[derive(Debug, Serialize)]
+struct Summary<'a> {
+    description: &'a str,
+    width: usize,
+    height: usize,
+    exposure: f64,
+    frames: Vec<&'a str>,
+    #[serde(flatten)]
+    rendered: &'a Rendered,
+    timings: Measured<PerPixel>,
+}
+
+/// ns per pixel of the view.
+#[derive(Debug, Serialize)]
+struct PerPixel {
+    device: String,
+    approximations_ns: Vec<Measured<f64>>,
+    sample_ns: Measured<f64>,
+}
+
+impl<'a> Summary<'a> {
+    fn new(scene: &'a Scene, rendered: &'a Rendered) -> Self {
+        let per_pixel = |ms: &Measured<f64>| ms.map(|ms| ms * 1e6 / scene.view.pixels() as f64);
+        Self {
+            description: &scene.description,
+            width: scene.view.width,
+            height: scene.view.height,
+            exposure: scene.view.exposure,
+            frames: scene.environments().collect(),
+            timings: rendered.times.map(|times| PerPixel {
+                device: times.device.clone(),
+                approximations_ns: times.approximations_ms.iter().map(per_pixel).collect(),
+                sample_ns: per_pixel(&times.sample_ms),
+            }),
+            rendered,
+        }
     }
 }
 

@@ -88,7 +88,7 @@ impl Pictured {
     /// The metric's value and its place; not a number for a metric that pictures do not have, which
     /// the gate file refuses.
     fn figure(&self, metric: Metric, found: &Metrics) -> Reached {
-        let (x, y) = (found.at.x as f64, found.at.y as f64);
+        let (x, y) = (found.at.0 as f64, found.at.1 as f64);
         let place = BTreeMap::from([("x".to_owned(), x), ("y".to_owned(), y)]);
         let nowhere = BTreeMap::new();
         let (value, at) = match metric {

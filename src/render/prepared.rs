@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use serde::Serialize;
+
 use super::backend::Backend;
 use super::compare::flip::{STANDARD_PIXELS_PER_DEGREE, ldr_flip};
 use super::compare::metrics::{ImageDifference, Place};
@@ -36,7 +38,7 @@ pub struct Picture {
 }
 
 /// How an image differs from the reference.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Metrics {
     /// Root mean square error over pixels and channels.
     pub rms: f64,
@@ -46,8 +48,10 @@ pub struct Metrics {
     pub mean: f64,
     /// Largest magnitude of the error.
     pub max: f64,
-    /// Where that is.
-    pub at: Place,
+    /// Column and row of that.
+    pub at: (usize, usize),
+    /// And its channel.
+    pub channel: String,
     /// Mean LDR-FLIP at the exposure of the scene.
     pub flip: f64,
     /// Against the noise of a Monte Carlo image, if one of the two is one.
@@ -62,12 +66,14 @@ impl Metrics {
     pub fn of(test: &Image, reference: &Image, exposure: f64) -> Result<Self, RenderError> {
         let difference = ImageDifference::of(test, reference)?;
         let noisy = [test, reference].iter().any(|image| image.standard_error("R").is_some());
+        let Place { x, y, channel } = difference.max_place();
         Ok(Self {
             rms: difference.all.rms,
             relative_rms: difference.all.relative_rms,
             mean: difference.all.mean - difference.all.reference_mean,
             max: difference.all.max,
-            at: difference.max_place(),
+            at: (x, y),
+            channel,
             flip: ldr_flip(test, reference, exposure.log2(), STANDARD_PIXELS_PER_DEGREE)?.mean,
             z_test: noisy.then(|| ZTest::of(test, reference, Pooling::default())).transpose()?,
         })
@@ -82,9 +88,15 @@ impl Scene {
 
     /// Frames of its pictures.
     pub fn frames(&self) -> usize {
-        let environments =
-            |light: &&super::scene::Light| matches!(light.shape, LightShape::Environment { .. });
-        self.lights.iter().filter(environments).count().max(1)
+        self.environments().count().max(1)
+    }
+
+    /// Maps that light a frame each.
+    pub fn environments(&self) -> impl Iterator<Item = &str> {
+        self.lights.iter().filter_map(|light| match &light.shape {
+            LightShape::Environment { map, .. } => Some(map.as_str()),
+            LightShape::Sphere { .. } | LightShape::Polygon(_) => None,
+        })
     }
 }
 

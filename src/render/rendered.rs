@@ -3,6 +3,8 @@
 
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use super::backend::Backend;
 use super::compare::error_map::ErrorMap;
 use super::compare::metrics::ImageDifference;
@@ -16,54 +18,80 @@ use super::tiles::Event;
 use super::times::{self, Convergence, EqualError, Times};
 use crate::numeric::measured::Measured;
 
-/// Everything that a scene asks for.
-#[derive(Debug, Clone)]
+/// Everything that a scene asks for; as JSON its figures.
+#[derive(Debug, Clone, Serialize)]
 pub struct Rendered {
     /// Name of the scene.
+    #[serde(rename = "scene")]
     pub name: String,
     /// The reference, frames beside each other; standard errors beside it if it is Monte Carlo.
+    #[serde(skip)]
     pub reference: Image,
     /// How it was made.
+    #[serde(rename = "reference")]
     pub method: ReferenceMethod,
-    /// Monte Carlo, where the scene asks for it.
-    pub monte_carlo: Option<Sampled>,
-    /// How it differs from the reference, if that is another image.
-    pub monte_carlo_metrics: Option<Metrics>,
-    /// How Monte Carlo's error falls against the reference.
-    pub convergence: Measured<Convergence>,
+    /// Where the kernels ran.
+    pub backend: String,
     /// One per approximation of the scene, in its order.
     pub approximations: Vec<RenderedApproximation>,
+    /// Monte Carlo, where the scene asks for it.
+    pub monte_carlo: Option<RenderedMonteCarlo>,
     /// What a frame costs on the device.
     pub times: Measured<Times>,
     /// The cheapest within the limits of the scene, or why there is none.
+    #[serde(rename = "cheapest_within_limits")]
     pub choice: Option<Result<String, String>>,
     /// What only scenes of its material show.
+    #[serde(flatten)]
     pub details: Details,
-    /// Where the kernels ran.
-    pub backend: String,
 }
 
 /// An approximation, rendered and compared.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub struct RenderedApproximation {
     /// Name.
     pub name: String,
     /// How it shades.
     pub method: Method,
+    /// The candidates that it shades with, if any.
+    pub shaded_by: Vec<String>,
     /// Its picture, and how that differs from the reference in f64.
+    #[serde(skip)]
     pub picture: Arc<Picture>,
     /// How it differs from the reference of the scene.
+    #[serde(flatten)]
     pub metrics: Metrics,
     /// Where it errs, relative to the root mean square of the reference, on a scale of its own.
+    #[serde(skip)]
     pub error: ErrorMap,
     /// ms of one frame on the device.
     pub frame_ms: Measured<f64>,
-    /// The time without an approximation over it.
+    /// ms of all frames.
+    pub image_ms: Measured<f64>,
+    /// The time in full, without the approximation, over it.
     pub full_over: Measured<f64>,
     /// Monte Carlo at its RMS error.
     pub equal_error: Measured<EqualError>,
     /// What of its budget is exceeded, in words.
     pub over_budget: Vec<String>,
+}
+
+/// Monte Carlo, rendered and compared.
+#[derive(Debug, Clone, Serialize)]
+pub struct RenderedMonteCarlo {
+    /// Samples and seed.
+    #[serde(flatten)]
+    pub options: MonteCarlo,
+    /// Its images.
+    #[serde(skip)]
+    pub sampled: Sampled,
+    /// How it differs from the reference, if that is another image.
+    #[serde(flatten)]
+    pub metrics: Option<Metrics>,
+    /// How its error falls against the reference.
+    pub convergence: Measured<Convergence>,
+    /// ms of all frames with all samples on the device.
+    pub image_ms: Measured<f64>,
 }
 
 /// Renders the reference, Monte Carlo and the approximations of a scene, compares and times them;
@@ -87,16 +115,14 @@ pub fn render(
             Some(image)
         }
     };
-    let sampled = match scene.monte_carlo {
-        Some(options) => {
-            let sampler = shading.sampler(options.seed, backend)?;
-            let name = scene::MONTE_CARLO;
-            let sampled = monte_carlo::sampled(name, scene.size(), &sampler, options, watch)?;
-            watch(Event::Image { name, image: &sampled.image, whole: true });
-            Some((options, sampled))
-        }
-        None => None,
-    };
+    let mut sampled = None;
+    if let Some(options) = scene.monte_carlo {
+        let sampler = shading.sampler(options.seed, backend)?;
+        let name = scene::MONTE_CARLO;
+        let found = monte_carlo::sampled(name, scene.size(), &sampler, options, watch)?;
+        watch(Event::Image { name, image: &found.image, whole: true });
+        sampled = Some((options, found));
+    }
     let mut pictures = Vec::with_capacity(scene.approximations.len());
     for (at, approximation) in scene.approximations.iter().enumerate() {
         let picture = prepared.picture(at, backend, watch)?;
@@ -114,17 +140,27 @@ pub fn render(
         }
         Backend::Lanes => Measured::NotMeasured("kernels are timed on the device".into()),
     };
-    let convergence = convergence(exact, sampled.as_ref())?;
-    let monte_carlo_metrics = match (exact, &sampled) {
-        (Some(exact), Some((_, sampled))) => Some(Metrics::of(&sampled.image, exact, exposure)?),
-        _ => None,
-    };
-    let monte_carlo = sampled.map(|(_, sampled)| sampled);
-    let noisy = monte_carlo.as_ref().map(|sampled| &sampled.image);
+    let frames = scene.frames() as f64;
+    let mut monte_carlo = None;
+    if let Some((options, sampled)) = sampled {
+        let ms = part(&times, |times| Some(times.sample_ms.clone()));
+        monte_carlo = Some(RenderedMonteCarlo {
+            options,
+            metrics: exact.map(|exact| Metrics::of(&sampled.image, exact, exposure)).transpose()?,
+            convergence: convergence(exact, options, &sampled)?,
+            image_ms: ms.map(|ms| ms * frames * f64::from(options.samples)),
+            sampled,
+        });
+    }
+    let noisy = monte_carlo.as_ref().map(|of| &of.sampled.image);
     let Some(reference) = exact.or(noisy) else {
         let what = "reference.method = \"monte_carlo\" needs a section [monte_carlo]";
         let (path, key) = (scene.origin.clone(), "monte_carlo".into());
         return Err(RenderError::Value { path, key, what: what.into() });
+    };
+    let law = match &monte_carlo {
+        Some(of) => of.convergence.clone(),
+        None => Measured::NotMeasured("the scene has no section [monte_carlo]".into()),
     };
     let mut approximations = Vec::with_capacity(pictures.len());
     for (at, (of, picture)) in scene.approximations.iter().zip(pictures).enumerate() {
@@ -138,7 +174,9 @@ pub fn render(
             name: of.name.clone(),
             method: of.method.clone(),
             error: ErrorMap::relative(&picture.image, reference, None)?,
-            equal_error: equal_error(&convergence, &times, &frame_ms, metrics.rms),
+            shaded_by: of.method.candidates(),
+            equal_error: equal_error(&law, &times, &frame_ms, metrics.rms),
+            image_ms: frame_ms.map(|ms| ms * frames),
             full_over: part(&times, |times| Some(times.full_over(at))),
             over_budget: budget.exceeded(&of.name, metrics.relative_rms, metrics.flip),
             frame_ms,
@@ -151,8 +189,6 @@ pub fn render(
         choice: scene.choice.as_ref().map(|limits| choice(&approximations, limits)),
         approximations,
         method: scene.reference,
-        monte_carlo_metrics,
-        convergence,
         times,
         details: shading.details()?,
         backend: backend.description(),
@@ -174,11 +210,9 @@ fn part(
 
 fn convergence(
     exact: Option<&Image>,
-    sampled: Option<&(MonteCarlo, Sampled)>,
+    options: MonteCarlo,
+    sampled: &Sampled,
 ) -> Result<Measured<Convergence>, RenderError> {
-    let Some((options, sampled)) = sampled else {
-        return Ok(Measured::NotMeasured("the scene has no section [monte_carlo]".into()));
-    };
     let Some(exact) = exact else {
         return Ok(Measured::NotMeasured("the reference is Monte Carlo itself".into()));
     };

@@ -304,9 +304,7 @@ impl Method {
     /// In words.
     pub fn words(&self) -> String {
         match self {
-            Self::Forms { sphere, polygon } => {
-                [sphere, polygon].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ")
-            }
+            Self::Forms { .. } => self.candidates().join(", "),
             Self::TwoPass { rank, factors: Factors::Svd } => format!("two passes, rank {rank}"),
             Self::TwoPass { rank, factors: Factors::Convolution } => {
                 format!("two passes, rank {rank}, fitted after convolution")
@@ -315,6 +313,16 @@ impl Method {
             Self::Sum => "sum of two directional blurs".into(),
             Self::Line => "1D along the tangents".into(),
             Self::Reconstructed { rank } => format!("eq. 3 with a table of rank {rank}"),
+        }
+    }
+
+    /// Names of the candidates that it shades with, if any.
+    pub fn candidates(&self) -> Vec<String> {
+        match self {
+            Self::Forms { sphere, polygon } => {
+                [sphere, polygon].into_iter().flatten().cloned().collect()
+            }
+            _ => Vec::new(),
         }
     }
 

@@ -66,19 +66,19 @@ impl Scene {
         if let Some((old, new)) = OLD.iter().find(|(old, _)| top.has(old)) {
             return Err(top.wrong(old, format!("[{old}] is now {new}")));
         }
-        let description = top.text("description")?.unwrap_or_default();
-        let view = view(below(&mut top, "view")?)?;
-        let geometry = geometry(below(&mut top, "geometry")?)?;
+        let description = top.text("description")?.or(String::new());
+        let view = view(top.section("view")?.needed()?)?;
+        let geometry = geometry(top.section("geometry")?.needed()?)?;
         let material = material(&mut top, path)?;
         check_view(&top, &view, &geometry, &material)?;
         let lights = lights(&mut top, &geometry, &material)?;
-        let reference = reference(below(&mut top, "reference")?, &material)?;
+        let reference = reference(top.section("reference")?.needed()?, &material)?;
         let monte_carlo = monte_carlo(&mut top, reference)?;
         let approximations = approximations(&mut top, &material, &lights)?;
         let names: Vec<&str> = approximations.iter().map(|a| a.name.as_str()).collect();
         let scene = Self {
             budget: budgets(&mut top, &names)?,
-            choice: top.section("choice")?.map(budget).transpose()?,
+            choice: top.section("choice")?.value.map(budget).transpose()?,
             claims: claims(&mut top, &names)?,
             name: name.to_owned(),
             origin: path.to_owned(),
@@ -102,33 +102,23 @@ impl Scene {
     }
 }
 
-/// A table that must be there.
-fn below(section: &mut Section, key: &'static str) -> Result<Section, RenderError> {
-    let found = section.section(key)?;
-    section.needed(key, found)
-}
-
 fn view(mut section: Section) -> Result<View, RenderError> {
-    let kind = section.named("kind", &[("equirectangular", false), ("camera", true)])?;
-    let is_camera = section.needed("kind", kind)?;
-    let mut side = |key| {
-        let pixels = section.count(key, [1, MAX_PIXELS as u64])?;
-        Ok::<_, RenderError>(section.needed(key, pixels)? as usize)
-    };
-    let (width, height) = (side("width")?, side("height")?);
+    let kinds = [("equirectangular", false), ("camera", true)];
+    let is_camera = section.named("kind", &kinds)?.needed()?;
+    let pixels = [1, MAX_PIXELS as u64];
+    let width = section.count("width", pixels)?.needed()? as usize;
+    let height = section.count("height", pixels)?.needed()? as usize;
     if width * height > MAX_PIXELS {
         let what = format!("{width} by {height} pixels are more than {MAX_PIXELS}");
         return Err(section.wrong("height", what));
     }
-    let exposure = section.number("exposure", POSITIVE)?.unwrap_or(1.0);
+    let exposure = section.number("exposure", POSITIVE)?.or(1.0);
     let projection = if is_camera {
-        let position = section.numbers("position", ANYWHERE)?;
-        let target = section.numbers("target", ANYWHERE)?;
-        let degrees = section.number("field_of_view_deg", [1.0, 150.0])?;
+        let degrees = section.number("field_of_view_deg", [1.0, 150.0])?.needed()?;
         let camera = Camera {
-            position: section.needed("position", position)?,
-            target: section.needed("target", target)?,
-            field_of_view_rad: section.needed("field_of_view_deg", degrees)?.to_radians(),
+            position: section.numbers("position", ANYWHERE)?.needed()?,
+            target: section.numbers("target", ANYWHERE)?.needed()?,
+            field_of_view_rad: degrees.to_radians(),
         };
         if camera.position == camera.target {
             return Err(section.wrong("target", "is where the camera is"));
@@ -144,30 +134,25 @@ fn view(mut section: Section) -> Result<View, RenderError> {
 
 fn geometry(mut section: Section) -> Result<Geometry, RenderError> {
     const SHAPES: [&str; 4] = ["point", "rectangle", "disc", "sphere"];
-    let shape = section.named("shape", &SHAPES.map(|name| (name, name)))?;
-    let shape = section.needed("shape", shape)?;
+    let shape = section.named("shape", &SHAPES.map(|name| (name, name)))?.needed()?;
     let geometry = if shape == "point" {
-        let direction_deg = section.number("direction_deg", TURNS_DEG)?.unwrap_or(0.0);
+        let direction_deg = section.number("direction_deg", TURNS_DEG)?.or(0.0);
         Geometry::Point { direction_deg }
     } else {
-        let centre = section.numbers("centre", ANYWHERE)?.unwrap_or_default();
-        let (normal, tangent) =
-            (section.numbers("normal", ANYWHERE)?, section.numbers("tangent", ANYWHERE)?);
-        let (normal, tangent) =
-            (section.needed("normal", normal)?, section.needed("tangent", tangent)?);
+        let centre = section.numbers("centre", ANYWHERE)?.or([0.0; 3]);
+        let normal = section.numbers("normal", ANYWHERE)?.needed()?;
+        let tangent = section.numbers("tangent", ANYWHERE)?.needed()?;
         if normal == [0.0; 3] {
             return Err(section.wrong("normal", "expected a vector that is not 0"));
         }
         let frame = Frame::new(normal, tangent, 0.0);
         match shape {
             "rectangle" => {
-                let half_size = section.numbers("half_size", [1e-6, 1e9])?;
-                let half_size = section.needed("half_size", half_size)?;
+                let half_size = section.numbers("half_size", [1e-6, 1e9])?.needed()?;
                 Geometry::Rectangle { centre, half_size, frame }
             }
             "disc" => {
-                let radii = section.numbers("radii", NOT_NEGATIVE)?;
-                let radii: [f64; 2] = section.needed("radii", radii)?;
+                let radii: [f64; 2] = section.numbers("radii", NOT_NEGATIVE)?.needed()?;
                 if radii[0] >= radii[1] {
                     let what = format!("expected the hole before the rim, got {radii:?}");
                     return Err(section.wrong("radii", what));
@@ -175,8 +160,8 @@ fn geometry(mut section: Section) -> Result<Geometry, RenderError> {
                 Geometry::Disc { centre, radii, frame }
             }
             _ => {
-                let radius = section.number("radius", [1e-6, 1e9])?;
-                Geometry::Sphere { centre, radius: section.needed("radius", radius)?, frame }
+                let radius = section.number("radius", [1e-6, 1e9])?.needed()?;
+                Geometry::Sphere { centre, radius, frame }
             }
         }
     };
@@ -186,32 +171,28 @@ fn geometry(mut section: Section) -> Result<Geometry, RenderError> {
 }
 
 fn material(top: &mut Section, path: &str) -> Result<Material, RenderError> {
-    let mut section = below(top, "material")?;
-    let kind = section.named("kind", &[("scratch", true), ("diffraction", false)])?;
-    let is_scratch = section.needed("kind", kind)?;
-    if is_scratch {
-        let mut length = |key, from, to| {
-            let length = section.number(key, [from, to])?;
-            section.needed(key, length)
-        };
+    let mut section = top.section("material")?.needed()?;
+    let kinds = [("scratch", true), ("diffraction", false)];
+    if section.named("kind", &kinds)?.needed()? {
+        let mut length = |key, from, to| section.number(key, [from, to])?.needed();
         let scratch = Scratch {
             width_um: length("width_um", 1e-3, 1e4)?,
             depth_um: length("depth_um", 0.0, 1e4)?,
             coherence_radius_um: length("coherence_radius_um", 0.1, 1e5)?,
         };
         section.done(&["reflectance", "table"], "kind = \"scratch\"")?;
-        return Ok(Material::Scratch(scratch, spectrum(below(top, "spectrum")?)?));
+        return Ok(Material::Scratch(scratch, spectrum(top.section("spectrum")?.needed()?)?));
     }
-    let reflectance = section.numbers("reflectance", [0.0, 1.0])?.unwrap_or([1.0; 3]);
-    let table = table(below(&mut section, "table")?, path)?;
+    let reflectance = section.numbers("reflectance", [0.0, 1.0])?.or([1.0; 3]);
+    let table = table(section.section("table")?.needed()?, path)?;
     let scratch = ["width_um", "depth_um", "coherence_radius_um"];
     section.done(&scratch, "kind = \"diffraction\"")?;
-    let convolution = convolution(below(top, "convolution")?)?;
+    let convolution = convolution(top.section("convolution")?.needed()?)?;
     Ok(Material::Diffraction(Diffraction { reflectance, table }, convolution))
 }
 
 fn table(mut section: Section, path: &str) -> Result<TableSource, RenderError> {
-    if let Some(file) = section.text("file")? {
+    if let Some(file) = section.text("file")?.value {
         section.done(&[], "")?;
         let folder = Path::new(path).parent().unwrap_or(Path::new("."));
         return Ok(TableSource::File(folder.join(file)));
@@ -221,36 +202,31 @@ fn table(mut section: Section, path: &str) -> Result<TableSource, RenderError> {
 }
 
 fn spectrum(mut section: Section) -> Result<Spectrum, RenderError> {
-    let kind = section.named("kind", &[("rgb", true), ("spectral", false)])?;
-    if section.needed("kind", kind)? {
-        let wavelengths = section.numbers("wavelengths_nm", WAVELENGTHS_NM)?;
-        let wavelengths = section.needed("wavelengths_nm", wavelengths)?;
+    if section.named("kind", &[("rgb", true), ("spectral", false)])?.needed()? {
+        let wavelengths = section.numbers("wavelengths_nm", WAVELENGTHS_NM)?.needed()?;
         section.done(&["from_nm", "to_nm", "samples"], "kind = \"rgb\"")?;
         return Ok(Spectrum::Rgb(wavelengths));
     }
-    let (from, to) =
-        (section.number("from_nm", WAVELENGTHS_NM)?, section.number("to_nm", WAVELENGTHS_NM)?);
-    let (from, to) = (section.needed("from_nm", from)?, section.needed("to_nm", to)?);
+    let from = section.number("from_nm", WAVELENGTHS_NM)?.needed()?;
+    let to = section.number("to_nm", WAVELENGTHS_NM)?.needed()?;
     if from >= to {
         return Err(section.wrong("to_nm", format!("expected more than {from}, got {to}")));
     }
-    let count = section.count("samples", [2, MAX_WAVELENGTHS])?;
-    let count = section.needed("samples", count)?;
+    let count = section.count("samples", [2, MAX_WAVELENGTHS])?.needed()?;
     section.done(&["wavelengths_nm"], "kind = \"spectral\"")?;
     let step = (to - from) / (count - 1) as f64;
     Ok(Spectrum::Spectral((0..count).map(|i| from + step * i as f64).collect()))
 }
 
 fn convolution(mut section: Section) -> Result<Convolution, RenderError> {
-    let map_width = section.count("map_width", MAP_WIDTHS)?;
-    let map_width = section.needed("map_width", map_width)? as usize;
+    let map_width = section.count("map_width", MAP_WIDTHS)?.needed()? as usize;
     if !map_width.is_multiple_of(2) {
         return Err(section.wrong("map_width", format!("expected an even number, got {map_width}")));
     }
     let ways =
         [("lookup", Straighten::Lookup), ("back", Straighten::Back), ("none", Straighten::None)];
-    let straighten = section.named("straighten", &ways)?.unwrap_or(Straighten::Lookup);
-    let align = section.flag("align")?.unwrap_or(false);
+    let straighten = section.named("straighten", &ways)?.or(Straighten::Lookup);
+    let align = section.flag("align")?.or(false);
     section.done(&[], "")?;
     Ok(Convolution { map_width, align, straighten })
 }
@@ -301,8 +277,7 @@ fn light(
     material: &Material,
 ) -> Result<Light, RenderError> {
     const KINDS: [&str; 3] = ["sphere", "polygon", "environment"];
-    let kind = section.named("kind", &KINDS.map(|name| (name, name)))?;
-    let kind = section.needed("kind", kind)?;
+    let kind = section.named("kind", &KINDS.map(|name| (name, name)))?.needed()?;
     if (kind == "environment") != matches!(material, Material::Diffraction(..)) {
         let what = match material {
             Material::Scratch(..) => "a scratch at a point is lit by \"sphere\" and \"polygon\"",
@@ -311,7 +286,7 @@ fn light(
         return Err(section.wrong("kind", format!("{what}, got \"{kind}\"")));
     }
     let spectral = matches!(material, Material::Scratch(_, Spectrum::Spectral(_)));
-    let radiance = section.colour("radiance", NOT_NEGATIVE)?.unwrap_or([1.0; 3]);
+    let radiance = section.colour("radiance", NOT_NEGATIVE)?.or([1.0; 3]);
     if spectral && radiance.iter().any(|channel| *channel != radiance[0]) {
         let what = "three radiances need spectrum.kind = \"rgb\"; give one number";
         return Err(section.wrong("radiance", what));
@@ -319,8 +294,7 @@ fn light(
     let shape = match kind {
         "sphere" => sphere(&mut section)?,
         "polygon" => {
-            let vertices = section.points("vertices")?;
-            let vertices = section.needed("vertices", vertices)?;
+            let vertices = section.points("vertices")?.needed()?;
             let polygon = Polygon::new(&vertices)
                 .map_err(|fault| section.wrong("vertices", fault.to_string()))?;
             if let Geometry::Point { direction_deg } = geometry {
@@ -331,12 +305,11 @@ fn light(
             LightShape::Polygon(polygon)
         }
         _ => {
-            let map = section.text("map")?;
-            let map = section.needed("map", map)?;
+            let map = section.text("map")?.needed()?;
             if map.is_empty() {
                 return Err(section.wrong("map", "is empty"));
             }
-            let turn_rad = section.number("turn_deg", TURNS_DEG)?.unwrap_or(0.0).to_radians();
+            let turn_rad = section.number("turn_deg", TURNS_DEG)?.or(0.0).to_radians();
             LightShape::Environment { map, turn_rad }
         }
     };
@@ -346,10 +319,8 @@ fn light(
 }
 
 fn sphere(section: &mut Section) -> Result<LightShape, RenderError> {
-    let (centre, radius) =
-        (section.numbers("centre", ANYWHERE)?, section.number("radius", POSITIVE)?);
-    let (centre, radius): ([f64; 3], f64) =
-        (section.needed("centre", centre)?, section.needed("radius", radius)?);
+    let centre: [f64; 3] = section.numbers("centre", ANYWHERE)?.needed()?;
+    let radius = section.number("radius", POSITIVE)?.needed()?;
     let distance = centre.iter().map(|x| x * x).sum::<f64>().sqrt();
     if radius >= distance * (1.0 - 1e-6) {
         let what = format!("{radius} reaches the scratch, {distance} from the centre");
@@ -369,16 +340,15 @@ fn reference(mut section: Section, material: &Material) -> Result<ReferenceMetho
             section.named("method", &[full, ("integral", ReferenceMethod::Integral), sampled])?
         }
     };
-    let method = section.needed("method", method)?;
     section.done(&[], "")?;
-    Ok(method)
+    method.needed()
 }
 
 fn monte_carlo(
     top: &mut Section,
     reference: ReferenceMethod,
 ) -> Result<Option<MonteCarlo>, RenderError> {
-    let Some(mut section) = top.section("monte_carlo")? else {
+    let Some(mut section) = top.section("monte_carlo")?.value else {
         if reference == ReferenceMethod::MonteCarlo {
             let what = "reference.method = \"monte_carlo\" needs a section [monte_carlo]";
             return Err(top.wrong("monte_carlo", what));
@@ -391,13 +361,12 @@ fn monte_carlo(
         return Err(section.wrong("", what));
     }
     let pass = u64::from(SAMPLES_PER_PASS);
-    let samples = section.count("samples", [2 * pass, MAX_SAMPLES])?;
-    let samples = section.needed("samples", samples)?;
+    let samples = section.count("samples", [2 * pass, MAX_SAMPLES])?.needed()?;
     if !samples.is_multiple_of(pass) {
         let what = format!("expected a multiple of {pass}, got {samples}");
         return Err(section.wrong("samples", what));
     }
-    let seed = section.count("seed", [0, u64::MAX])?.unwrap_or(1);
+    let seed = section.count("seed", [0, u64::MAX])?.or(1);
     section.done(&[], "")?;
     Ok(Some(MonteCarlo { samples: samples as u32, seed }))
 }
@@ -409,8 +378,7 @@ fn approximations(
 ) -> Result<Vec<Approximation>, RenderError> {
     let mut found: Vec<Approximation> = Vec::new();
     for mut section in top.sections("approximation")? {
-        let name = section.text("name")?;
-        let name = section.needed("name", name)?;
+        let name = section.text("name")?.needed()?;
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         let fault = if name.is_empty() || !name.chars().all(plain) {
             Some(format!("expected letters, digits, _ and -, got \"{name}\""))
@@ -437,7 +405,7 @@ fn approximations(
 
 fn forms(mut section: Section, lights: &[Light]) -> Result<Method, RenderError> {
     let mut of = |kind, is_lit: bool| {
-        let name = section.text(kind)?;
+        let name = section.text(kind)?.value;
         if let Some(name) = name.as_ref().filter(|name| !is_in_project(name)) {
             let what = format!("expected a name inside the project, got \"{name}\"");
             return Err(section.wrong(kind, what));
@@ -457,16 +425,15 @@ fn forms(mut section: Section, lights: &[Light]) -> Result<Method, RenderError> 
 
 fn convolved(mut section: Section) -> Result<Method, RenderError> {
     const METHODS: [&str; 5] = ["two_pass", "printed", "sum", "line", "reconstructed"];
-    let name = section.named("method", &METHODS.map(|name| (name, name)))?;
-    let name = section.needed("method", name)?;
+    let name = section.named("method", &METHODS.map(|name| (name, name)))?.needed()?;
     let mut rank = || -> Result<usize, RenderError> {
-        Ok(section.count("rank", [1, MOST_TERMS])?.unwrap_or(1) as usize)
+        Ok(section.count("rank", [1, MOST_TERMS])?.or(1) as usize)
     };
     let method = match name {
         "two_pass" => {
             let rank = rank()?;
             let ways = [("svd", Factors::Svd), ("convolution", Factors::Convolution)];
-            let factors = section.named("factors", &ways)?.unwrap_or(Factors::Svd);
+            let factors = section.named("factors", &ways)?.or(Factors::Svd);
             Method::TwoPass { rank, factors }
         }
         "printed" => Method::Printed { rank: rank()? },
@@ -486,7 +453,7 @@ fn is_in_project(name: &str) -> bool {
 }
 
 fn budgets(top: &mut Section, names: &[&str]) -> Result<BTreeMap<String, Budget>, RenderError> {
-    let Some(mut section) = top.section("budget")? else { return Ok(BTreeMap::new()) };
+    let Some(mut section) = top.section("budget")?.value else { return Ok(BTreeMap::new()) };
     let named = section.by_name()?.into_iter();
     named
         .map(|(name, section)| {
@@ -500,8 +467,8 @@ fn budgets(top: &mut Section, names: &[&str]) -> Result<BTreeMap<String, Budget>
 
 fn budget(mut section: Section) -> Result<Budget, RenderError> {
     let budget = Budget {
-        relative_rms: section.number("relative_rms", NOT_NEGATIVE)?,
-        flip: section.number("flip", NOT_NEGATIVE)?,
+        relative_rms: section.number("relative_rms", NOT_NEGATIVE)?.value,
+        flip: section.number("flip", NOT_NEGATIVE)?.value,
     };
     if budget == Budget::default() && !section.is_left() {
         return Err(section.wrong("", "expected `relative_rms`, `flip` or both, got neither"));
@@ -514,11 +481,13 @@ fn claims(top: &mut Section, names: &[&str]) -> Result<Vec<SceneClaim>, RenderEr
     let sections = top.sections("claim")?.into_iter();
     sections
         .map(|mut section| {
-            let check = section.named("check", &claims::CHECKS.map(|(name, _)| (name, name)))?;
-            let check = section.needed("check", check)?;
-            let (place, printed) = (section.text("place")?, section.text("printed")?);
-            let of = section.names()?;
-            let claim = SceneClaim { check: check.to_owned(), place, printed, of };
+            let names_of_checks = claims::CHECKS.map(|(name, _)| (name, name));
+            let claim = SceneClaim {
+                check: section.named("check", &names_of_checks)?.needed()?.to_owned(),
+                place: section.text("place")?.value,
+                printed: section.text("printed")?.value,
+                of: section.names()?,
+            };
             match claims::fault(&claim, names) {
                 Some((key, what)) => Err(section.wrong(&key, what)),
                 None => Ok(claim),

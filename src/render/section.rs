@@ -27,6 +27,26 @@ pub(super) struct Section {
     asked: Vec<&'static str>,
 }
 
+/// What stands under a key, and what is said if it is needed and missing.
+#[derive(Debug)]
+pub(super) struct Entry<T> {
+    /// The value, if it is there.
+    pub(super) value: Option<T>,
+    missing: RenderError,
+}
+
+impl<T> Entry<T> {
+    /// The value, which must be there.
+    pub(super) fn needed(self) -> Result<T, RenderError> {
+        self.value.ok_or(self.missing)
+    }
+
+    /// The value, or `default`.
+    pub(super) fn or(self, default: T) -> T {
+        self.value.unwrap_or(default)
+    }
+}
+
 impl Section {
     /// The top of the file `path` with the text `text`.
     pub(super) fn parse(path: &str, text: &str) -> Result<Self, RenderError> {
@@ -90,15 +110,12 @@ impl Section {
         key: &'static str,
         what: &str,
         read: impl FnOnce(&Value) -> Option<T>,
-    ) -> Result<Option<T>, RenderError> {
+    ) -> Result<Entry<T>, RenderError> {
         self.asked.push(key);
-        let Some(value) = self.left.remove(key) else { return Ok(None) };
-        read(&value).map(Some).ok_or_else(|| self.expected(key, what, &value))
-    }
-
-    /// `value`, which must be there.
-    pub(super) fn needed<T>(&self, key: &str, value: Option<T>) -> Result<T, RenderError> {
-        value.ok_or_else(|| self.wrong(key, "is needed here and missing"))
+        let missing = self.wrong(key, "is needed here and missing");
+        let Some(value) = self.left.remove(key) else { return Ok(Entry { value: None, missing }) };
+        let read = read(&value).ok_or_else(|| self.expected(key, what, &value))?;
+        Ok(Entry { value: Some(read), missing })
     }
 
     /// A number in [from, to]; a NaN lies in none.
@@ -106,7 +123,7 @@ impl Section {
         &mut self,
         key: &'static str,
         [from, to]: [f64; 2],
-    ) -> Result<Option<f64>, RenderError> {
+    ) -> Result<Entry<f64>, RenderError> {
         let what = format!("a number in [{from}, {to}]");
         self.take(key, &what, |value| number(value).filter(|x| (from..=to).contains(x)))
     }
@@ -116,12 +133,12 @@ impl Section {
         &mut self,
         key: &'static str,
         [from, to]: [f64; 2],
-    ) -> Result<Option<[f64; N]>, RenderError> {
+    ) -> Result<Entry<[f64; N]>, RenderError> {
         let whole = self.take(key, &format!("{N} numbers in [{from}, {to}]"), |value| {
             let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(number).collect();
             <[f64; N]>::try_from(numbers?).ok()
         })?;
-        if let Some(bad) = whole.iter().flatten().find(|x| !(from..=to).contains(*x)) {
+        if let Some(bad) = whole.value.iter().flatten().find(|x| !(from..=to).contains(*x)) {
             return Err(self.wrong(key, format!("expected numbers in [{from}, {to}], got {bad}")));
         }
         Ok(whole)
@@ -131,7 +148,7 @@ impl Section {
     pub(super) fn points(
         &mut self,
         key: &'static str,
-    ) -> Result<Option<Vec<[f64; 3]>>, RenderError> {
+    ) -> Result<Entry<Vec<[f64; 3]>>, RenderError> {
         self.take(key, "an array of points, three numbers each", |value| {
             let point = |value: &Value| {
                 let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(number).collect();
@@ -146,13 +163,16 @@ impl Section {
         &mut self,
         key: &'static str,
         range: [f64; 2],
-    ) -> Result<Option<[f64; 3]>, RenderError> {
+    ) -> Result<Entry<[f64; 3]>, RenderError> {
         match self.left.get(key) {
             Some(Value::Array(list)) if list.len() != 3 => {
                 Err(self.wrong(key, "expected one number or three (R, G, B)"))
             }
             Some(Value::Array(_)) => self.numbers(key, range),
-            _ => Ok(self.number(key, range)?.map(|one| [one; 3])),
+            _ => {
+                let Entry { value, missing } = self.number(key, range)?;
+                Ok(Entry { value: value.map(|one| [one; 3]), missing })
+            }
         }
     }
 
@@ -161,7 +181,7 @@ impl Section {
         &mut self,
         key: &'static str,
         [from, to]: [u64; 2],
-    ) -> Result<Option<u64>, RenderError> {
+    ) -> Result<Entry<u64>, RenderError> {
         self.take(key, &format!("a whole number in [{from}, {to}]"), |value| {
             let count = u64::try_from(value.as_integer()?).ok()?;
             (from..=to).contains(&count).then_some(count)
@@ -169,12 +189,12 @@ impl Section {
     }
 
     /// Text.
-    pub(super) fn text(&mut self, key: &'static str) -> Result<Option<String>, RenderError> {
+    pub(super) fn text(&mut self, key: &'static str) -> Result<Entry<String>, RenderError> {
         self.take(key, "text in quotes", |value| value.as_str().map(str::to_owned))
     }
 
     /// `true` or `false`.
-    pub(super) fn flag(&mut self, key: &'static str) -> Result<Option<bool>, RenderError> {
+    pub(super) fn flag(&mut self, key: &'static str) -> Result<Entry<bool>, RenderError> {
         self.take(key, "true or false", Value::as_bool)
     }
 
@@ -183,7 +203,7 @@ impl Section {
         &mut self,
         key: &'static str,
         names: &[(&str, T)],
-    ) -> Result<Option<T>, RenderError> {
+    ) -> Result<Entry<T>, RenderError> {
         let list: Vec<String> = names.iter().map(|(name, _)| format!("\"{name}\"")).collect();
         let known = match list.split_last() {
             Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
@@ -196,11 +216,11 @@ impl Section {
     }
 
     /// The table called `key`.
-    pub(super) fn section(&mut self, key: &'static str) -> Result<Option<Self>, RenderError> {
-        let table = self.take(key, &format!("a table [{}]", self.full(key)), |value| {
-            value.as_table().cloned()
-        })?;
-        Ok(table.map(|left| self.below(self.full(key), left)))
+    pub(super) fn section(&mut self, key: &'static str) -> Result<Entry<Self>, RenderError> {
+        let what = format!("a table [{}]", self.full(key));
+        let table = self.take(key, &what, |value| value.as_table().cloned())?;
+        let value = table.value.map(|left| self.below(self.full(key), left));
+        Ok(Entry { value, missing: table.missing })
     }
 
     /// The tables of the array called `key`, none without it.
@@ -212,7 +232,7 @@ impl Section {
                 .map(|table| table.as_table().cloned())
                 .collect::<Option<Vec<_>>>()
         })?;
-        let numbered = tables.unwrap_or_default().into_iter().enumerate();
+        let numbered = tables.or(Vec::new()).into_iter().enumerate();
         Ok(numbered
             .map(|(at, left)| self.below(format!("{}[{at}]", self.full(key)), left))
             .collect())
@@ -327,7 +347,7 @@ mod tests {
     #[test]
     fn what_is_wrong_is_named_by_line_and_key() {
         let mut top = Section::parse("s.toml", TEXT).expect("it is TOML");
-        let mut view = top.section("view").expect("a table").expect("it is there");
+        let mut view = top.section("view").and_then(Entry::needed).expect("a table");
         assert_eq!(
             said(view.count("width", [1, 9])),
             "s.toml:3: view.width: expected a whole number in [1, 9], got the string \"wide\""
@@ -341,9 +361,8 @@ mod tests {
             said(lights[1].number("radius", [0.0, 2.0])),
             "s.toml:9: light[1].radius: expected a number in [0, 2], got true"
         );
-        let missing = lights[0].number("size", [0.0, 1.0]).expect("nothing is wrong");
         assert_eq!(
-            said(lights[0].needed("size", missing)),
+            said(lights[0].number("size", [0.0, 1.0]).and_then(Entry::needed)),
             "s.toml:6: light[0].size: is needed here and missing"
         );
         assert_eq!(

@@ -4,6 +4,7 @@
 use std::fmt::Debug;
 use std::ops::Range;
 
+use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::backend::Backend;
@@ -35,11 +36,13 @@ pub struct Moved<'a> {
 }
 
 /// What only scenes of one material show.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct Details {
     /// For readers.
+    #[serde(skip)]
     pub blocks: Vec<Block>,
     /// For programs, by name.
+    #[serde(flatten)]
     pub figures: Map<String, Value>,
 }
 

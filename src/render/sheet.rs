@@ -27,7 +27,7 @@ pub fn comparison(rendered: &Rendered, exposure: f64) -> Result<(Image, f64), Re
     let errors = error_pictures(&pictures, reference, exposure, scale)?;
     let pixels = reference.width * reference.height;
     let blank = Image::rgb(reference.width, reference.height, &vec![[0.0; 3]; pixels]);
-    let noisy = rendered.monte_carlo.as_ref().map_or(&blank, |sampled| &sampled.image);
+    let noisy = rendered.monte_carlo.as_ref().map_or(&blank, |of| &of.sampled.image);
     let mut images = vec![reference, noisy];
     for (image, error) in pictures.iter().zip(&errors) {
         images.extend([*image, error]);

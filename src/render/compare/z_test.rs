@@ -45,7 +45,7 @@ impl Default for Pooling {
 }
 
 /// Result of the test.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct ZTest {
     /// Number of cells.
     pub cells: usize,
@@ -61,7 +61,7 @@ pub struct ZTest {
 }
 
 /// A cell, as the place to look at.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize)]
 pub struct Cell {
     /// The channel.
     pub channel: String,

@@ -15,7 +15,9 @@ use crate::render::claims::findings;
 use crate::render::scene::{LightShape, Scene};
 use crate::render::sheet::comparison;
 use crate::render::view::Projection;
-use crate::render::{PreparedScene, RenderError, Rendered, RenderedApproximation};
+use crate::render::{
+    PreparedScene, RenderError, Rendered, RenderedApproximation, RenderedMonteCarlo,
+};
 
 /// A scene and what was rendered of it.
 #[derive(Debug)]
@@ -112,9 +114,7 @@ pub fn scene_tables(rendered: &Rendered) -> Vec<Block> {
         blocks.push(notice(NoticeLevel::Info, text));
     }
     blocks.extend(frontier(rendered).map(Block::Figure));
-    if rendered.monte_carlo.is_some() {
-        blocks.push(monte_carlo(rendered));
-    }
+    blocks.extend(rendered.monte_carlo.as_ref().map(monte_carlo));
     blocks.extend(rendered.details.blocks.iter().cloned());
     blocks
 }
@@ -137,8 +137,8 @@ fn errors(rendered: &Rendered) -> PrintedTable {
         Cell::number(found.metrics.max, 4)
     })
     .column(PrintedColumn::text("where"), |found| {
-        let at = &found.metrics.at;
-        Cell::text(format!("{}, {} {}", at.x, at.y, at.channel))
+        let ((x, y), channel) = (found.metrics.at, &found.metrics.channel);
+        Cell::text(format!("{x}, {y} {channel}"))
     });
     let Measured::Value(times) = &rendered.times else { return table.table() };
     let mut table = table
@@ -192,15 +192,15 @@ fn frontier(rendered: &Rendered) -> Option<Figure> {
     ))
 }
 
-fn monte_carlo(rendered: &Rendered) -> Block {
-    let law = match &rendered.convergence {
+fn monte_carlo(of: &RenderedMonteCarlo) -> Block {
+    let law = match &of.convergence {
         Measured::Value(law) => law,
         Measured::NotMeasured(reason) => {
             let text = format!("Monte Carlo at equal error: {reason}").into();
             return Block::Notice { level: NoticeLevel::NotMeasured, text };
         }
     };
-    let test = rendered.monte_carlo_metrics.as_ref().and_then(|metrics| metrics.z_test.as_ref());
+    let test = of.metrics.as_ref().and_then(|metrics| metrics.z_test.as_ref());
     let tested = |value: Option<f64>| Cell::number_or(value, 3, "no standard error");
     PrintedTable::of_rows(
         "Monte Carlo against the reference: its error at two numbers of samples, the exponent between \
