@@ -6,6 +6,16 @@
 //! result is **validated** (accuracy, laws, parity with the device, speed), **reported**, and held
 //! by **gates**. The modules stand in the order of that flow: each may use those above it in this
 //! list and none below (`tests/architecture.rs` enforces it).
+//!
+//! | to | begin with | an example that runs |
+//! |---|---|---|
+//! | load a form | [`form::Form::parse`] | [`form`](form#example) |
+//! | fit it | [`fit::run_spec`] | [`fit`](fit#example) |
+//! | judge it | [`validate::accuracy::accuracy`], [`validate::laws::judge`] | [`validate`](validate#example) |
+//! | hold it to a limit | [`gate::Check::of`] | [`gate`](gate#example) |
+//! | add an effect | [`registry::Registry::with_effect`] | `examples/own_effect.rs` |
+//!
+//! [`run::Run`] does all of it for a [`project::Project`].
 
 pub mod numeric;
 pub mod table;

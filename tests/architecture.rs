@@ -122,6 +122,11 @@ fn every_registered_item_is_described() {
             assert!(form.name.starts_with(&format!("{}/", effect.name)), "{}", form.name);
             assert!(!form.description.is_empty() && !form.citation.is_empty(), "{}", form.name);
             assert!(form.reference.is_some(), "{} approximates nothing", form.name);
+            for source in &form.constants_of {
+                let known = striae::registry::Registry::builtin().form(source).is_some()
+                    || root().join(format!("fits/{source}.json")).is_file();
+                assert!(known, "{} takes constants from `{source}`, which is not there", form.name);
+            }
             assert!(
                 root().join(&form.path).is_file(),
                 "{} names no file: {}",

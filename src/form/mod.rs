@@ -15,6 +15,27 @@
 //! - A bitcast in f64 lanes rounds to f32 first; its derivative is zero.
 //! - Functions that WGSL defines by a formula (`mix`, `smoothstep`, `reflect` …) follow it in its
 //!   order; `dot` adds from the first component to the last.
+//!
+//! # Example
+//!
+//! ```
+//! use striae::form::Form;
+//!
+//! let text = "
+//!     override slope: f32 = 0.5;
+//!     fn masking(mu: f32, alpha: f32) -> f32 {
+//!         let k = slope * alpha;
+//!         return mu / (mu * (1.0 - k) + k);
+//!     }";
+//! let form = Form::parse("masking.wgsl", text, "masking")?;
+//! assert_eq!(form.parameters()[0].default, Some(0.5));
+//! assert_eq!(form.input_columns(), ["mu", "alpha"]);
+//!
+//! // One slice per input; one list of values per output.
+//! let values = form.eval_f64(&[0.5], &[&[0.0, 0.5, 1.0], &[1.0, 1.0, 1.0]])?;
+//! assert_eq!(values, [[0.0, 0.5 / 0.75, 1.0]]);
+//! # Ok::<(), striae::form::FormError>(())
+//! ```
 
 mod compile;
 mod cost;

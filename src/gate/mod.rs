@@ -4,6 +4,47 @@
 //! only on a number that was measured in this run, on points that were not fitted, with the
 //! constants that are committed. Whatever stands in the way of measuring it fails it, except a
 //! missing device, which is shown as not measured.
+//!
+//! # Example
+//!
+//! ```
+//! use striae::document::Verdict;
+//! use striae::fit::Context;
+//! use striae::gate::{self, Check};
+//! use striae::numeric::measured::Measured;
+//! use striae::project::Project;
+//! use striae::registry::Registry;
+//! use striae::validate::regions::Atlas;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let gates = gate::parse(
+//!     "gates.toml",
+//!     r#"[[gate]]
+//!     subject = "sine_integral/published"
+//!     metric = "max_abs"
+//!     domain = "[-10, 10]"
+//!     limit = 0.05105
+//!     why = "velinov2018 eq. 29 and fig. 7"
+//!
+//!     [[gate]]
+//!     subject = "sine_integral/published"
+//!     metric = "max_abs"
+//!     domain = "[-10, 10]"
+//!     limit = 0.05
+//!     why = "less than eq. 29 reaches: it fails"
+//!     "#,
+//! )?;
+//! // No spec stands in this folder, so that the form is judged as printed.
+//! let project = Project::at("a/folder/without/specs", Registry::builtin());
+//! let (atlas, fits) = (Atlas::default(), Context::new(project.root(), project.registry()));
+//! let device = Measured::NotMeasured("no gate needs a device".to_owned());
+//! let check = Check::of(&project, &atlas, &fits, &gates, &[], &device, false)?;
+//! let verdicts: Vec<Verdict> = check.gates.iter().map(|gate| gate.verdict).collect();
+//! assert_eq!(verdicts, [Verdict::Pass, Verdict::Fail]);
+//! assert!(!check.passed());
+//! # Ok(())
+//! # }
+//! ```
 
 mod annotation;
 mod budget;

@@ -50,7 +50,7 @@ pub struct Studied {
     pub study: Study,
     /// Costs.
     pub costs: Costs,
-    /// Held-out members of each family.
+    /// Held-out members of each family; none where the project has no folder of measured data.
     pub members: Vec<Vec<Member>>,
 }
 
@@ -164,8 +164,12 @@ impl Run {
         subjects: Vec<Subject>,
         candidates: &Candidates,
     ) -> Result<Studied, RunError> {
-        let members = effect
-            .families
+        // A project of the user's own may have no measured data: its families are not measured.
+        let families = match self.project.data().is_dir() {
+            true => effect.families,
+            false => &[],
+        };
+        let members = families
             .par_iter()
             .map(|family| {
                 (family.members)(&self.project.data(), true)

@@ -1,4 +1,34 @@
 //! Validation: accuracy on points that were not fitted, laws, parity with the device, and cost.
+//!
+//! # Example
+//!
+//! A registered form, judged in a region of its effect and by the effect's laws:
+//!
+//! ```
+//! use striae::numeric::measured::Measured;
+//! use striae::registry::Registry;
+//! use striae::validate::accuracy::{Target, accuracy};
+//! use striae::validate::laws::{LawStanding, judge};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let registry = Registry::builtin();
+//! let published = registry.form("sine_integral/published").ok_or("no form")?.written()?;
+//! let (effect, reference) = registry.reference("sine_integral").ok_or("no reference")?;
+//!
+//! let near = effect.regions.iter().find(|region| region.name == "[-10, 10]").ok_or("no region")?;
+//! let target = Target::of_reference(reference, (near.points)(), &published.form)?;
+//! let without = Measured::NotMeasured("no device was asked for".to_owned());
+//! let found = accuracy(&published, &target, &without)?;
+//! assert!((0.0509..0.0511).contains(&found.f32.max_abs), "velinov2018 fig. 7: {:?}", found.f32);
+//!
+//! let verdicts = judge(effect, "sine_integral/published", "sine_integral", &published);
+//! let odd = verdicts.iter().find(|verdict| verdict.law == "odd").ok_or("no law")?;
+//! assert_eq!(odd.verdict, LawStanding::Holds);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! [`study::study`] does all of it for every candidate of an effect.
 
 pub mod accuracy;
 pub mod cheapest;

@@ -1,8 +1,10 @@
 //! A study of one effect: every candidate of it on every region, its laws, its parity and its cost.
 
-use crate::document::Section;
+use crate::document::{NoticeLevel, Section};
 use crate::effect::claim::check;
-use crate::effect::{Candidate, Candidates, Effect, Finding, Member, Reference};
+use crate::effect::{
+    Candidate, CandidateError, Candidates, ClaimError, Effect, Finding, Member, Reference,
+};
 use crate::fit::outcome::Outcome;
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
@@ -65,7 +67,8 @@ pub struct Study {
 
 /// Studies `effect` with `subjects`, those of it.
 ///
-/// `members` holds the held-out members of each family, in the order of `effect.families`;
+/// `members` holds the held-out members of each family, in the order of `effect.families`, or is empty
+/// where the project has no measured data;
 /// `candidates` are those of the project, for claims and exhibits.
 ///
 /// # Errors
@@ -85,7 +88,7 @@ pub fn study(
         families: Vec::new(),
         laws: Vec::new(),
         findings: check(effect.claims, candidates),
-        exhibits: (effect.exhibits)(candidates)?,
+        exhibits: exhibits(effect, candidates)?,
     };
     for subject in subjects {
         let reference = match &subject.approximates {
@@ -112,6 +115,18 @@ pub fn study(
         found.families.push(FamilyStudy { family: family.name.to_owned(), forms, spreads });
     }
     Ok(found)
+}
+
+/// What the effect shows beyond its candidates; where the project lacks a fit or the data for it, that
+/// it was not measured and why.
+fn exhibits(effect: &Effect, candidates: &Candidates) -> Result<Vec<Section>, ValidateError> {
+    let lacking = match (effect.exhibits)(candidates) {
+        Ok(sections) => return Ok(sections),
+        Err(ClaimError::Candidate(error @ CandidateError::Unknown { .. })) => error.to_string(),
+        Err(ClaimError::Measured(error)) => error.to_string(),
+        Err(error) => return Err(error.into()),
+    };
+    Ok(vec![Section::new("Exhibits").notice(NoticeLevel::NotMeasured, lacking)])
 }
 
 /// The reference that the registered form of a subject approximates; empty for a form of the user's.

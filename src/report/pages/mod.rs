@@ -41,7 +41,7 @@ pub struct EffectEvidence<'a> {
     pub forms: &'a [&'a FormEntry],
     /// What was judged.
     pub subjects: &'a [Subject],
-    /// Held-out members of each family, in the order of `effect.families`.
+    /// Held-out members of each family, in the order of `effect.families`; none without measured data.
     pub members: &'a [Vec<Member>],
     /// Gates on this effect.
     pub gates: &'a [&'a Judgement],
@@ -58,6 +58,10 @@ pub fn effect_page(evidence: &EffectEvidence<'_>) -> Result<Page, ValidateError>
         .section(fits::fitted_section(evidence));
     for family in &evidence.study.families {
         page = page.section(families::section(evidence, family)?);
+    }
+    if evidence.members.len() < effect.families.len() {
+        let text = "The project has no folder `data/measured`, of which the families are made.";
+        page = page.section(Section::new("Families").notice(NoticeLevel::NotMeasured, text));
     }
     if !evidence.study.candidates.is_empty() {
         page = page.section(accuracy::section(evidence)).section(curves::section(evidence)?);
