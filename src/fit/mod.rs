@@ -1,8 +1,8 @@
 //! Fits: a spec (hand-written TOML) and a result (generated JSON).
 //!
-//! [`run::run_spec`] is the way in. A spec is resolved to points and target values ([`target`]),
+//! [`run_spec`] is the way in. A spec is resolved to points and target values (`target`),
 //! the form to a [`model`] of its free constants, both to a [`problem`] in unbounded variables,
-//! which [`solve`] minimises; [`statistics`], [`round_to_f32`] and [`residuals`] say what the
+//! which [`solve`] minimises; `statistics`, `round_to_f32` and `residuals` say what the
 //! optimum is worth, and [`outcome`] is what is written.
 //!
 //! # Example

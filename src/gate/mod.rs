@@ -10,10 +10,11 @@
 //! ```
 //! use striae::document::Verdict;
 //! use striae::fit::Context;
-//! use striae::gate::{self, Check};
+//! use striae::gate::{self, Check, Sources};
 //! use striae::numeric::measured::Measured;
 //! use striae::project::Project;
 //! use striae::registry::Registry;
+//! use striae::render::Scenes;
 //! use striae::validate::regions::Atlas;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -36,9 +37,11 @@
 //! )?;
 //! // No spec stands in this folder, so that the form is judged as printed.
 //! let project = Project::at("a/folder/without/specs", Registry::builtin());
-//! let (atlas, fits) = (Atlas::default(), Context::new(project.root(), project.registry()));
+//! let (atlas, scenes) = (Atlas::default(), Scenes::default());
+//! let fits = Context::new(project.root(), project.registry());
+//! let sources = Sources { project: &project, atlas: &atlas, scenes: &scenes, fits: &fits };
 //! let device = Measured::NotMeasured("no gate needs a device".to_owned());
-//! let check = Check::of(&project, &atlas, &fits, &gates, &[], &device, false)?;
+//! let check = Check::of(sources, &gates, &[], &device, false)?;
 //! let verdicts: Vec<Verdict> = check.gates.iter().map(|gate| gate.verdict).collect();
 //! assert_eq!(verdicts, [Verdict::Pass, Verdict::Fail]);
 //! assert!(!check.passed());
