@@ -67,7 +67,8 @@ fn a_form_of_the_project_has_a_name_like_any_other() {
         .assert()
         .success()
         .stdout(contains("1,1.1071487177940904"));
-    project.striae().args(["emit", "mine/arc"]).assert().success().stdout(contains("atan"));
+    let emit = ["emit", "mine/arc", "--lang", "wgsl"];
+    project.striae().args(emit).assert().success().stdout(contains("atan"));
 }
 
 #[test]

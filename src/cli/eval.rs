@@ -11,6 +11,7 @@ use super::{Ending, output};
 use crate::effect::{Candidate, Reference};
 use crate::form::Input;
 use crate::gpu::Device;
+use crate::project::Named;
 use crate::table::store::atomic_write;
 
 const MORE: &str = "\
@@ -75,9 +76,16 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         None => arguments.name.clone(),
     };
     let project = context.project_or_here();
+    let subject = match project.registry().reference(&name) {
+        Some((_, reference)) => Named::Reference(reference),
+        None => {
+            let set = arguments.set.iter().cloned().collect();
+            Named::Candidate(Box::new(project.candidate_with(&name, &set)?))
+        }
+    };
     let points = Points::read(&arguments.input)?;
-    let results = match project.registry().reference(&name) {
-        Some((_, reference)) => {
+    let results = match subject {
+        Named::Reference(reference) => {
             if let Some((name, _)) = arguments.set.first() {
                 bail!("--set {name}: the reference {} has no constants", reference.name);
             }
@@ -86,10 +94,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
             }
             of_reference(reference, &points)?
         }
-        None => {
-            let set = arguments.set.iter().cloned().collect();
-            of_candidate(&project.candidate_with(&name, &set)?, &points, arguments.precision)?
-        }
+        Named::Candidate(candidate) => of_candidate(&candidate, &points, arguments.precision)?,
     };
     write(&arguments.output, &points.with(&results)?)?;
     Ok(Ending::Done)

@@ -7,12 +7,12 @@
 //!
 //! ```
 //! use striae::document::text::{self, Layout};
-//! use striae::document::{Cell, Column, Section, Table, Verdict};
+//! use striae::document::{Cell, PrintedColumn, PrintedTable, Section, Verdict};
 //!
-//! let costs = Table::over("Cost on the device.", [("published", 0.51234), ("refitted", 0.5)])
-//!     .column(Column::code("form"), |(form, _)| Cell::text(*form))
-//!     .column(Column::number("cost", "ns"), |(_, cost)| Cell::number(*cost, 3))
-//!     .column(Column::verdict("gate"), |(_, cost)| {
+//! let costs = PrintedTable::over("Cost on the device.", [("published", 0.51234), ("refitted", 0.5)])
+//!     .column(PrintedColumn::code("form"), |(form, _)| Cell::text(*form))
+//!     .column(PrintedColumn::number("cost", "ns"), |(_, cost)| Cell::number(*cost, 3))
+//!     .column(PrintedColumn::verdict("gate"), |(_, cost)| {
 //!         Cell::verdict(if *cost <= 0.51 { Verdict::Pass } else { Verdict::Fail })
 //!     });
 //! let section = Section::new("Costs").paragraph("Medians of `striae bench`.").block(costs);

@@ -16,11 +16,14 @@ pub struct NoValue {
     pub source: DomainError,
 }
 
+/// By reference and name of the points.
+type KnownValues = BTreeMap<(&'static str, String), Arc<[f64]>>;
+
 /// Values of references by reference and name of the points. A light's integral takes up to
 /// milliseconds; fits, validation, gates and the report of one run share them.
 #[derive(Debug, Default)]
 pub struct ReferenceValues {
-    known: Mutex<BTreeMap<(&'static str, String), Arc<[f64]>>>,
+    known: Mutex<KnownValues>,
 }
 
 impl ReferenceValues {

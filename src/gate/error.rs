@@ -61,7 +61,7 @@ pub enum GateError {
     Project(#[from] ProjectError),
     /// A form or a reference could not be evaluated, or the device failed.
     #[error(transparent)]
-    Validate(#[from] ValidateError),
+    Validate(Box<ValidateError>),
     /// A scene is unusable, or cannot be rendered.
     #[error("{0}")]
     Render(#[source] Box<RenderError>),
@@ -71,6 +71,12 @@ pub enum GateError {
     /// A family could not be made.
     #[error(transparent)]
     Family(#[from] FamilyError),
+}
+
+impl From<ValidateError> for GateError {
+    fn from(error: ValidateError) -> Self {
+        Self::Validate(Box::new(error))
+    }
 }
 
 impl From<RenderError> for GateError {

@@ -23,7 +23,7 @@ pub fn judge(
     let prepared = gates.iter().map(|gate| prepare(gate, evidence, device));
     let prepared = prepared.collect::<Result<Vec<_>, _>>()?;
     let judged = prepared.into_par_iter().zip(gates).map(|(prepared, gate)| match prepared {
-        Prepared::Judged(judgement) => Ok(judgement),
+        Prepared::Judged(judgement) => Ok(*judgement),
         Prepared::OnLanes(subject) => on_lanes_or_device(gate, &subject, None),
     });
     judged.collect()
@@ -31,8 +31,8 @@ pub fn judge(
 
 /// A gate that is judged, or that lanes will judge beside others.
 enum Prepared {
-    Judged(Judgement),
-    OnLanes(Subject),
+    Judged(Box<Judgement>),
+    OnLanes(Box<Subject>),
 }
 
 fn prepare(
@@ -40,7 +40,7 @@ fn prepare(
     evidence: &mut Evidence<'_>,
     device: &Measured<Device>,
 ) -> Result<Prepared, GateError> {
-    let judged = |judgement| Ok(Prepared::Judged(judgement));
+    let judged = |judgement| Ok(Prepared::Judged(Box::new(judgement)));
     if gate.scene().is_some() {
         if let (Precision::Device, Measured::NotMeasured(reason)) = (gate.precision, device) {
             return judged(Judgement::not_measured(gate.clone(), reason.clone()));
@@ -65,7 +65,7 @@ fn prepare(
         (Precision::Device, Measured::Value(device)) => {
             judged(on_lanes_or_device(gate, &subject, Some(device))?)
         }
-        (Precision::F64 | Precision::F32, _) => Ok(Prepared::OnLanes(subject)),
+        (Precision::F64 | Precision::F32, _) => Ok(Prepared::OnLanes(Box::new(subject))),
     }
 }
 

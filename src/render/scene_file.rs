@@ -134,7 +134,16 @@ fn view(mut section: Section) -> Result<View, RenderError> {
 
 fn geometry(mut section: Section) -> Result<Geometry, RenderError> {
     const SHAPES: [&str; 4] = ["point", "rectangle", "disc", "sphere"];
+    const ALL: [&str; 7] =
+        ["direction_deg", "half_size", "radii", "radius", "centre", "normal", "tangent"];
     let shape = section.named("shape", &SHAPES.map(|name| (name, name)))?.needed()?;
+    let own: &[&str] = match shape {
+        "point" => &["direction_deg"],
+        "rectangle" => &["half_size", "centre", "normal", "tangent"],
+        "disc" => &["radii", "centre", "normal", "tangent"],
+        _ => &["radius", "centre", "normal", "tangent"],
+    };
+    section.only(own, &ALL, &format!("shape = \"{shape}\""))?;
     let geometry = if shape == "point" {
         let direction_deg = section.number("direction_deg", TURNS_DEG)?.or(0.0);
         Geometry::Point { direction_deg }
@@ -165,27 +174,25 @@ fn geometry(mut section: Section) -> Result<Geometry, RenderError> {
             }
         }
     };
-    let own = ["direction_deg", "half_size", "radii", "radius", "centre", "normal", "tangent"];
-    section.done(&own, &format!("shape = \"{shape}\""))?;
     Ok(geometry)
 }
 
 fn material(top: &mut Section, path: &str) -> Result<Material, RenderError> {
     let mut section = top.section("material")?.needed()?;
     let kinds = [("scratch", true), ("diffraction", false)];
+    let scratch = ["width_um", "depth_um", "coherence_radius_um"];
     if section.named("kind", &kinds)?.needed()? {
+        section.only(&scratch, &["reflectance", "table"], "kind = \"scratch\"")?;
         let mut length = |key, from, to| section.number(key, [from, to])?.needed();
         let scratch = Scratch {
             width_um: length("width_um", 1e-3, 1e4)?,
             depth_um: length("depth_um", 0.0, 1e4)?,
             coherence_radius_um: length("coherence_radius_um", 0.1, 1e5)?,
         };
-        section.done(&["reflectance", "table"], "kind = \"scratch\"")?;
         return Ok(Material::Scratch(scratch, spectrum(top.section("spectrum")?.needed()?)?));
     }
     let reflectance = section.numbers("reflectance", [0.0, 1.0])?.or([1.0; 3]);
     let table = table(section.section("table")?.needed()?, path)?;
-    let scratch = ["width_um", "depth_um", "coherence_radius_um"];
     section.done(&scratch, "kind = \"diffraction\"")?;
     let convolution = convolution(top.section("convolution")?.needed()?)?;
     Ok(Material::Diffraction(Diffraction { reflectance, table }, convolution))

@@ -291,14 +291,27 @@ impl Section {
             .collect()
     }
 
-    /// That nothing is left. `elsewhere`: keys that mean something, but not beside `kind`.
-    pub(super) fn done(self, elsewhere: &[&str], kind: &str) -> Result<(), RenderError> {
-        let Some(key) = self.left.keys().next() else { return Ok(()) };
-        if elsewhere.contains(&key.as_str()) {
+    /// That no more than `keys` is left, so that a stray key is named before the one whose place it
+    /// has taken. `elsewhere`: keys that mean something, but not beside `kind`.
+    pub(super) fn only(
+        &self,
+        keys: &[&str],
+        elsewhere: &[&str],
+        kind: &str,
+    ) -> Result<(), RenderError> {
+        let mut left = self.left.keys().map(String::as_str);
+        let Some(key) = left.find(|key| !keys.contains(key)) else { return Ok(()) };
+        if elsewhere.contains(&key) {
             return Err(self.wrong(key, format!("means nothing with {kind}")));
         }
-        let known = self.asked.join(", ");
+        let known: Vec<&str> = self.asked.iter().chain(keys).copied().collect();
+        let known = known.join(", ");
         Err(self.wrong(key, format!("unknown field `{key}`; there are: {known}")))
+    }
+
+    /// That nothing is left, as [`Self::only`] says it.
+    pub(super) fn done(self, elsewhere: &[&str], kind: &str) -> Result<(), RenderError> {
+        self.only(&[], elsewhere, kind)
     }
 }
 

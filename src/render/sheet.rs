@@ -23,7 +23,7 @@ pub fn comparison(rendered: &Rendered, exposure: f64) -> Result<(Image, f64), Re
     let (found, reference) = (&rendered.approximations, &rendered.reference);
     let pictures: Vec<&Image> = found.iter().map(|a| &a.picture.image).collect();
     let scale = found.iter().map(|a| a.error.covering(BEYOND)).fold(0.0, f64::max);
-    let scale = if scale > 0.0 { scale } else { 1.0 };
+    let scale = if scale > 0.0 { scale.min(1.0) } else { 1.0 };
     let errors = error_pictures(&pictures, reference, exposure, scale)?;
     let pixels = reference.width * reference.height;
     let blank = Image::rgb(reference.width, reference.height, &vec![[0.0; 3]; pixels]);

@@ -73,17 +73,17 @@ pub enum RunError {
     },
     /// A candidate could not be judged.
     #[error(transparent)]
-    Validate(#[from] ValidateError),
+    Validate(Box<ValidateError>),
     /// Gates could not be judged.
     #[error(transparent)]
-    Gate(#[from] crate::gate::GateError),
+    Gate(Box<crate::gate::GateError>),
     /// A scene could not be rendered.
     #[error("{scene}: {source}")]
     Scene {
         /// Its file.
         scene: String,
         /// Why.
-        source: crate::render::RenderError,
+        source: Box<crate::render::RenderError>,
     },
     /// A family of tables could not be made.
     #[error("{family}: {source}")]
@@ -109,7 +109,25 @@ pub enum RunError {
     Table(#[from] crate::table::TableError),
     /// A picture of the report could not be made.
     #[error(transparent)]
-    Render(#[from] crate::render::RenderError),
+    Render(Box<crate::render::RenderError>),
+}
+
+impl From<ValidateError> for RunError {
+    fn from(error: ValidateError) -> Self {
+        Self::Validate(Box::new(error))
+    }
+}
+
+impl From<crate::gate::GateError> for RunError {
+    fn from(error: crate::gate::GateError) -> Self {
+        Self::Gate(Box::new(error))
+    }
+}
+
+impl From<crate::render::RenderError> for RunError {
+    fn from(error: crate::render::RenderError) -> Self {
+        Self::Render(Box::new(error))
+    }
 }
 
 /// The device, or why there is none.

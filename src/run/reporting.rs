@@ -100,7 +100,8 @@ impl Run {
             .map(|path| {
                 let shown = path.display().to_string();
                 watch(&shown);
-                let failed = |source| RunError::Scene { scene: shown.clone(), source };
+                let failed =
+                    |source| RunError::Scene { scene: shown.clone(), source: Box::new(source) };
                 let scene = self.scenes.prepared(&path, &self.project).map_err(failed)?;
                 let rendered = render(&scene, backend, &mut |_| ()).map_err(failed)?;
                 Ok(SceneEvidence { scene, rendered })

@@ -7,7 +7,7 @@
 //! ```
 //! use striae::numeric::measured::Measured;
 //! use striae::registry::Registry;
-//! use striae::validate::accuracy::{Target, accuracy};
+//! use striae::validate::accuracy::{GroundTruth, accuracy};
 //! use striae::validate::laws::{LawStanding, judge};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -16,7 +16,7 @@
 //! let (effect, reference) = registry.reference("sine_integral").ok_or("no reference")?;
 //!
 //! let near = effect.regions.iter().find(|region| region.name == "[-10, 10]").ok_or("no region")?;
-//! let target = Target::of_reference(reference, (near.points)(), &published.form)?;
+//! let target = GroundTruth::of_reference(reference, (near.points)(), &published.form)?;
 //! let without = Measured::NotMeasured("no device was asked for".to_owned());
 //! let found = accuracy(&published, &target, &without)?;
 //! assert!((0.0509..0.0511).contains(&found.f32.max_abs), "velinov2018 fig. 7: {:?}", found.f32);

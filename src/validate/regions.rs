@@ -10,10 +10,13 @@ use crate::table::Table;
 use crate::validate::ValidateError;
 use crate::validate::accuracy::{GroundTruth, Judged};
 
+/// By reference and region; none where the region has not every argument of the reference.
+type JudgedRegions = BTreeMap<(&'static str, &'static str), Option<Arc<Judged>>>;
+
 /// Points and values of every region that was asked for.
 #[derive(Debug, Default)]
 pub struct Atlas {
-    known: Mutex<BTreeMap<(&'static str, &'static str), Option<Arc<Judged>>>>,
+    known: Mutex<JudgedRegions>,
 }
 
 /// The regions and the hard cases of one reference, for every form that approximates it.
