@@ -75,6 +75,9 @@ fn a_form_of_the_project_has_a_name_like_any_other() {
 fn it_is_fitted_and_gated() {
     for (limit, code) in [(1.0, 0), (1e-3, 1)] {
         let project = with_forms(limit);
+        let emit = ["emit", "mine/fitted", "--lang", "wgsl"];
+        let not_yet = "error: mine/fitted has no result yet: run `striae fit mine/fitted`";
+        project.striae().args(emit).assert().code(2).stderr(contains(not_yet));
         project.striae().args(["fit", "mine/fitted"]).assert().success();
         let result: serde_json::Value =
             serde_json::from_str(&project.read("fits/mine/fitted.json")).expect("JSON");

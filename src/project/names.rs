@@ -74,7 +74,7 @@ impl Project {
             return Ok((form, Constants::new(), ConstantsOf::Text));
         }
         if let Some(form) = name.strip_prefix("form:") {
-            let entry = self.registry().form(form).ok_or_else(|| self.unknown(form))?;
+            let entry = self.registry().form(form).ok_or_else(|| self.unknown(name))?;
             return Ok((entry.load()?, Constants::new(), ConstantsOf::Text));
         }
         if let Some(outcome) = self.outcome(name)? {
@@ -198,13 +198,21 @@ impl Project {
         }
     }
 
-    /// That nothing is called `name`, with the nearest names.
+    /// That nothing is called `name`, with the nearest names; or that its fit was not run yet.
     pub fn unknown(&self, name: &str) -> ProjectError {
+        let specs: Vec<String> =
+            self.specs().unwrap_or_default().into_iter().map(|spec| spec.name).collect();
+        if specs.iter().any(|spec| spec == name) {
+            return ProjectError::NoResult { fit: name.to_owned() };
+        }
         let mut known: Vec<String> =
             self.registry().references().map(|r| r.name.to_owned()).collect();
         known.extend(self.registry().forms().map(|form| form.name.to_owned()));
-        known.extend(self.specs().unwrap_or_default().into_iter().map(|spec| spec.name));
-        ProjectError::Unknown { name: name.to_owned(), nearest: nearest(name, known) }
+        known.extend(specs);
+        ProjectError::Unknown {
+            name: name.to_owned(),
+            nearest: nearest(name.trim_start_matches("form:"), known),
+        }
     }
 }
 
