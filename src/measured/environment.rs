@@ -48,7 +48,7 @@ impl LatLong {
         [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
     }
 
-    /// Continuous texel coordinates (x, y) of a direction of any length but 0: the inverse of
+    /// Continuous texel coordinates (x, y) of a direction of length 1e-150 to 1e150: the inverse of
     /// [`LatLong::direction`], x in [0, width).
     pub fn coordinates(&self, direction: [f64; 3]) -> (f64, f64) {
         let (x, y) = self.unwrapped(direction);
@@ -60,11 +60,12 @@ impl LatLong {
 
     /// As [`LatLong::coordinates`] but for a turn, x in [−width/2, width/2], without its rounding.
     pub(crate) fn unwrapped(&self, [x, y, z]: [f64; 3]) -> (f64, f64) {
-        let column = y.atan2(x) * self.width as f64 / (2.0 * PI);
-        (column, x.hypot(y).atan2(z) * self.height as f64 / PI)
+        // Not the platform's atan2: the same everywhere, and glibc's sets the rounding mode at each call.
+        let column = libm::atan2(y, x) * self.width as f64 / (2.0 * PI);
+        (column, libm::atan2((x * x + y * y).sqrt(), z) * self.height as f64 / PI)
     }
 
-    /// The four texels around a direction of any length but 0, by their number row by row, with
+    /// The four texels around a direction of length 1e-150 to 1e150, by their number row by row, with
     /// their bilinear shares; around in azimuth and on over the poles.
     pub fn around(&self, direction: [f64; 3]) -> [(usize, f64); 4] {
         let (x, y) = self.unwrapped(direction);
@@ -93,7 +94,10 @@ impl LatLong {
             row if row >= height => (column + width / 2, 2 * height - 1 - row),
             row => (column, row),
         };
-        (row * width + column.checked_rem_euclid(width).unwrap_or(0)).max(0) as usize
+        // A division takes longer than all else.
+        let within = (0..width).contains(&column);
+        let column = if within { column } else { column.checked_rem_euclid(width).unwrap_or(0) };
+        (row * width + column).max(0) as usize
     }
 }
 

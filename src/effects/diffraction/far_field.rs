@@ -83,19 +83,25 @@ impl FarFieldTransform {
             self.along_x.process(row);
         });
         let scale = 1.0 / (surface.nx * surface.ny) as f64 / (nx * ny) as f64;
-        let columns: Vec<Vec<f64>> = (0..nx)
-            .into_par_iter()
-            .map(|cell| {
-                let at = from_lowest(cell, nx);
-                let mut column = vec![Complex64::default(); ny];
-                for (value, row) in column.iter_mut().zip(rows.chunks(nx)) {
-                    *value = row[at];
+        let cells: Vec<usize> = (0..nx).map(|cell| from_lowest(cell, nx)).collect();
+        // Columns side by side, so that what is read of a row lies in few lines of the cache.
+        let columns: Vec<Vec<f64>> = cells
+            .par_chunks(16)
+            .flat_map_iter(|cells| {
+                let mut columns = vec![vec![Complex64::default(); ny]; cells.len()];
+                for (y, row) in rows.chunks(nx).enumerate() {
+                    columns.iter_mut().zip(cells).for_each(|(column, at)| column[y] = row[*at]);
                 }
-                self.along_y.process(&mut column);
-                (0..ny).map(|cell| column[from_lowest(cell, ny)].norm_sqr() * scale).collect()
+                columns.into_iter().map(|mut column| {
+                    self.along_y.process(&mut column);
+                    (0..ny).map(|cell| column[from_lowest(cell, ny)].norm_sqr() * scale).collect()
+                })
             })
             .collect();
-        let power = (0..ny).flat_map(|y| columns.iter().map(move |column| column[y])).collect();
+        let mut power = vec![0.0; nx * ny];
+        power.par_chunks_mut(nx).enumerate().for_each(|(y, row)| {
+            row.iter_mut().zip(&columns).for_each(|(power, column)| *power = column[y]);
+        });
         FarField {
             x: Cells::around_zero(nx, 1.0 / (nx as f64 * surface.dx_um)),
             y: Cells::around_zero(ny, 1.0 / (ny as f64 * surface.dy_um)),
@@ -123,17 +129,15 @@ impl FarField {
     }
 
     /// Share of the power with f inside `inside`, by the centres of the cells, µm⁻¹.
-    pub fn share(&self, inside: impl Fn(f64, f64) -> bool) -> f64 {
+    pub fn share(&self, inside: impl Fn(f64, f64) -> bool + Sync) -> f64 {
         let fx: Vec<f64> = (0..self.x.count).map(|i| self.x.centre(i)).collect();
-        let rows = self.power.chunks(self.x.count.max(1)).enumerate();
-        let kept = rows.flat_map(|(y, row)| {
-            let fy = self.y.centre(y);
-            row.iter()
-                .zip(&fx)
-                .filter(|(_, fx)| inside(**fx, fy))
-                .map(|(p, _)| *p)
-                .collect::<Vec<_>>()
-        });
+        let rows = self.power.par_chunks(self.x.count.max(1)).enumerate();
+        let kept: Vec<f64> = rows
+            .flat_map_iter(|(y, row)| {
+                let (fy, inside) = (self.y.centre(y), &inside);
+                row.iter().zip(&fx).filter(move |(_, fx)| inside(**fx, fy)).map(|(p, _)| *p)
+            })
+            .collect();
         crate::numeric::statistics::sum(kept)
     }
 

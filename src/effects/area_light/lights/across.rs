@@ -165,27 +165,58 @@ impl Lobe {
             let (turn, half_turn) = (0.5 * (from + to), 0.5 * (to - from));
             let centre = self.kw * (slice.radius * turn.cos() * half_turn.cos() + self.view_y);
             let half = self.kw * slice.radius * turn.sin() * half_turn.sin();
-            if half > NARROW {
-                return sinc_squared_band(centre - half, centre + half);
+            if half <= MOST_PERIODS * PI {
+                band_in_panels(centre, half)
+            } else {
+                sinc_squared_band(centre - half, centre + half)
             }
-            let square = |x: f64| if x == 0.0 { 1.0 } else { (2.0 * (0.5 * x).sin() / x).powi(2) };
-            let sides = GAUSS.map(|[x, weight]| {
-                weight * (square(centre - half * x) + square(centre + half * x))
-            });
-            half * sides.iter().sum::<f64>()
         };
         slice.covered.iter().map(interval).sum::<f64>() / self.kw
     }
 }
 
-/// Half-width of bands up to which eight points integrate sinc² to rounding, 0.25¹⁶/16! of it.
-const NARROW: f64 = 0.25;
-/// Abscissae x > 0 and weights of Gauss and Legendre's eight points, A&S table 25.4.
-const GAUSS: [[f64; 2]; 4] = [
-    [0.183_434_642_495_649_8, 0.362_683_783_378_362],
-    [0.525_532_409_916_329, 0.313_706_645_877_887_3],
-    [0.796_666_477_413_626_7, 0.222_381_034_453_374_48],
-    [0.960_289_856_497_536_3, 0.101_228_536_290_376_26],
+/// ∫ sinc²(t/2) dt over |t − centre| ≤ half by Gauss and Legendre's twelve points per period, which
+/// integrate it to rounding: within an integral digits of a band between two zeros need not be kept, as
+/// [`sinc_squared_band`] keeps them, and the sines of all panels follow from those of one.
+fn band_in_panels(centre: f64, half: f64) -> f64 {
+    let panels = (half / PI).ceil().max(1.0);
+    let part = half / panels;
+    let nodes = GAUSS.map(|[x, weight]| (x * part, (0.5 * x * part).sin_cos(), weight));
+    let panel = |index: usize| {
+        let middle = centre + part * (2.0 * index as f64 + 1.0 - panels);
+        let (sin, cos) = (0.5 * middle).sin_cos();
+        let both = |&(offset, (sin_offset, cos_offset), weight): &(f64, (f64, f64), f64)| {
+            let (even, odd) = (sin * cos_offset, cos * sin_offset);
+            weight
+                * (sinc_squared(middle + offset, even + odd)
+                    + sinc_squared(middle - offset, even - odd))
+        };
+        nodes.iter().map(both).sum::<f64>()
+    };
+    part * (0..panels as usize).map(panel).sum::<f64>()
+}
+
+/// sinc²(t/2) with sin(t/2) given.
+fn sinc_squared(t: f64, sin_half: f64) -> f64 {
+    let square = t * t;
+    if square < 1e-2 {
+        // The next term is 6e-15 at most.
+        1.0 - square / 12.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0))
+    } else {
+        4.0 * sin_half * sin_half / square
+    }
+}
+
+/// Periods of sinc² up to which a band is integrated in panels.
+const MOST_PERIODS: f64 = 8.0;
+/// Abscissae x > 0 and weights of Gauss and Legendre's twelve points, A&S table 25.4.
+const GAUSS: [[f64; 2]; 6] = [
+    [0.125_233_408_511_468_92, 0.249_147_045_813_402_77],
+    [0.367_831_498_998_180_2, 0.233_492_536_538_354_8],
+    [0.587_317_954_286_617_4, 0.203_167_426_723_065_92],
+    [0.769_902_674_194_304_7, 0.160_078_328_543_346_23],
+    [0.904_117_256_370_474_9, 0.106_939_325_995_318_43],
+    [0.981_560_634_246_719_3, 0.047_175_336_386_511_83],
 ];
 
 /// A part of a piece, over θ.
