@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::Ending;
 use super::context::Context;
+use crate::gpu::TimingOptions;
 use crate::report::pages::cost_section;
 use crate::run::{Studied, write_costs};
 use crate::validate::cheapest::{Cheapest, cheapest};
@@ -58,7 +59,8 @@ impl<'a> Bench<'a> {
 /// Times, and prints the frontier.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     let effects = context.effects(&arguments.effects)?;
-    let run = context.run()?;
+    let mut run = context.run()?;
+    run.timing = TimingOptions::default();
     let studied = run.studies(&effects, &|_| ())?;
     if arguments.record {
         if !arguments.effects.is_empty() {

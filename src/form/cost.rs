@@ -24,6 +24,12 @@ pub struct OpCount {
 }
 
 impl OpCount {
+    /// All of them.
+    pub fn total(&self) -> u32 {
+        let Self { arithmetic, divide_sqrt, elementary, branches, table_reads } = self;
+        arithmetic + divide_sqrt + elementary + branches + table_reads
+    }
+
     /// Counts a program.
     pub(crate) fn of(program: &Program) -> Self {
         let mut count = Self { branches: branches(&program.body), ..Self::default() };

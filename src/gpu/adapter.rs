@@ -22,6 +22,13 @@ pub struct AdapterDescription {
     pub device: String,
 }
 
+impl AdapterDescription {
+    /// Whether it is a program on the CPU.
+    pub fn is_software(&self) -> bool {
+        self.device_type == "cpu"
+    }
+}
+
 impl std::fmt::Display for AdapterDescription {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} ({}, {}", self.name, self.device_type, self.backend)?;

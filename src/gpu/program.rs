@@ -15,7 +15,10 @@ pub(super) const WORKGROUP: u32 = 64;
 
 /// Evaluations written out in the body of the loop of [`Purpose::Repeat`], so that the loop's own
 /// cost, which is subtracted, stays small beside that of a form.
-pub(super) const UNROLLED: u32 = 4;
+const UNROLLED: u32 = 4;
+/// Operations from which a form is written out once: the loop's own cost is small beside it, and a driver
+/// compiles it four times as fast.
+const LONG: u32 = 64;
 
 /// What the kernel does with the form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,6 +38,8 @@ pub(super) enum Purpose {
 pub(super) struct Program {
     pub(super) form: Form,
     pub(super) text: String,
+    /// Evaluations in one turn of the loop of [`Purpose::Repeat`].
+    pub(super) unrolled: u32,
     entry: String,
     constants: Vec<(String, f64)>,
 }
@@ -80,9 +85,12 @@ impl Program {
         let prefix = unused_prefix(form.source());
         let key = |name| constant_key(form.module(), name);
         let names = form.parameters().iter().map(|parameter| key(&parameter.name));
+        let unrolled = if form.op_count().total() < LONG { UNROLLED } else { 1 };
+        let wrapper = wrapper(&prefix, form, purpose, unrolled);
         Ok(Self {
             form: form.clone(),
-            text: format!("{}\n{}", form.device_source(), wrapper(&prefix, form, purpose)),
+            text: format!("{}\n{wrapper}", form.device_source()),
+            unrolled,
             entry: format!("{prefix}main"),
             constants: names.zip(parameters.iter().map(|value| f64::from(*value))).collect(),
         })
@@ -240,7 +248,7 @@ fn unused_prefix(source: &str) -> String {
     prefix
 }
 
-fn wrapper(p: &str, form: &Form, purpose: Purpose) -> String {
+fn wrapper(p: &str, form: &Form, purpose: Purpose, unrolled: u32) -> String {
     let (function, inputs) = (form.function(), form.input_types());
     // Integers do not survive as f32, but every f32 does as the bits of an integer.
     let as_words = inputs.iter().any(|input| *input != ScalarType::F32);
@@ -315,7 +323,7 @@ fn wrapper(p: &str, form: &Form, purpose: Purpose) -> String {
                  var {p}offset = 0.0;\n  var {p}sum = 0.0;\n  \
                  for (var {p}i = 0u; {p}i < {p}size.y; {p}i++) {{\n{}  }}\n  \
                  {p}outputs[{p}lane] = {p}sum;\n}}\n",
-                evaluation.repeat(UNROLLED as usize)
+                evaluation.repeat(unrolled as usize)
             )
         }
     };

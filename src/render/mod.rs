@@ -36,7 +36,7 @@ pub use backend::{Backend, Kernel};
 pub use error::RenderError;
 pub use monte_carlo::Sampled;
 pub use prepared::{Metrics, Picture, PreparedScene, Scenes};
-pub use rendered::{Rendered, RenderedApproximation, RenderedMonteCarlo, render};
+pub use rendered::{RenderOptions, Rendered, RenderedApproximation, RenderedMonteCarlo, render};
 pub use scene::Scene;
 pub use shading::Shading;
 pub use tiles::Event;

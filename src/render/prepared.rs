@@ -135,14 +135,24 @@ impl PreparedScene {
         watch: &mut dyn FnMut(Event<'_>),
     ) -> Result<Arc<Picture>, RenderError> {
         let key = (at, matches!(backend, Backend::Device(_)));
-        let known = || self.pictures.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(picture) = known().get(&key) {
-            return Ok(Arc::clone(picture));
+        if let Some(picture) = self.known(key) {
+            return Ok(picture);
         }
         let name = self.scene.approximations.get(at).map_or("", |of| of.name.as_str());
         let image = self.image(name, &self.shading.picture(at, None, backend)?, watch)?;
         let picture = Arc::new(Picture { metrics: self.metrics(&image)?, image });
-        Ok(Arc::clone(known().entry(key).or_insert(picture)))
+        let mut pictures = self.pictures.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(Arc::clone(pictures.entry(key).or_insert(picture)))
+    }
+
+    /// The picture of the approximation at a place of the scene, if lanes have drawn it already.
+    pub fn drawn_on_lanes(&self, at: usize) -> Option<Arc<Picture>> {
+        self.known((at, false))
+    }
+
+    fn known(&self, key: (usize, bool)) -> Option<Arc<Picture>> {
+        let pictures = self.pictures.lock().unwrap_or_else(PoisonError::into_inner);
+        pictures.get(&key).map(Arc::clone)
     }
 
     /// The same picture with a constant of its forms moved, or all of its values where it has none.

@@ -94,17 +94,36 @@ pub struct RenderedMonteCarlo {
     pub image_ms: Measured<f64>,
 }
 
+/// Where a scene is rendered, and how long its kernels are timed.
+#[derive(Debug, Clone, Copy)]
+pub struct RenderOptions<'d> {
+    /// Where approximations and Monte Carlo are drawn, and kernels timed if it is a device.
+    pub backend: Backend<'d>,
+    /// Whether a picture that was drawn on lanes before, for a gate, is not drawn again.
+    pub reuse: bool,
+    /// Time after which no further round of timing begins, s.
+    pub budget_s: f64,
+}
+
+impl<'d> From<Backend<'d>> for RenderOptions<'d> {
+    /// Everything drawn there, and timed for 2 s.
+    fn from(backend: Backend<'d>) -> Self {
+        Self { backend, reuse: false, budget_s: 2.0 }
+    }
+}
+
 /// Renders the reference, Monte Carlo and the approximations of a scene, compares and times them;
 /// `watch` sees tiles and images as they are finished.
 ///
 /// # Errors
 /// [`RenderError`]: what cannot be made, and [`RenderError::Interrupted`] with what is finished of an
 /// image that was cut short.
-pub fn render(
+pub fn render<'d>(
     prepared: &PreparedScene,
-    backend: Backend<'_>,
+    options: impl Into<RenderOptions<'d>>,
     watch: &mut dyn FnMut(Event<'_>),
 ) -> Result<Rendered, RenderError> {
+    let RenderOptions { backend, reuse, budget_s } = options.into();
     let PreparedScene { scene, shading, .. } = prepared;
     let exposure = scene.view.exposure;
     let exact = match scene.reference {
@@ -124,8 +143,11 @@ pub fn render(
         sampled = Some((options, found));
     }
     let mut pictures = Vec::with_capacity(scene.approximations.len());
+    let mut reused = 0;
     for (at, approximation) in scene.approximations.iter().enumerate() {
-        let picture = prepared.picture(at, backend, watch)?;
+        let known = reuse.then(|| prepared.drawn_on_lanes(at)).flatten();
+        reused += usize::from(known.is_some());
+        let picture = known.map_or_else(|| prepared.picture(at, backend, watch), Ok)?;
         watch(Event::Image { name: &approximation.name, image: &picture.image, whole: true });
         pictures.push(picture);
     }
@@ -133,7 +155,7 @@ pub fn render(
         Backend::Device(device) => {
             let seed = scene.monte_carlo.map(|options| options.seed);
             // The pictures are there: a device that fails now costs the times alone.
-            match times::times(device, shading.as_ref(), pictures.len(), seed) {
+            match times::times(device, shading.as_ref(), pictures.len(), seed, budget_s) {
                 Ok(times) => Measured::Value(times),
                 Err(error) => Measured::NotMeasured(error.to_string()),
             }
@@ -191,7 +213,10 @@ pub fn render(
         method: scene.reference,
         times,
         details: shading.details()?,
-        backend: backend.description(),
+        backend: match reused {
+            0 => backend.description(),
+            _ => format!("{}; {reused} on {}", backend.description(), Backend::Lanes.description()),
+        },
         reference: reference.clone(),
         monte_carlo,
     })

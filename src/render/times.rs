@@ -97,7 +97,7 @@ impl Convergence {
 }
 
 /// Times `approximations` approximations, what they approximate, and Monte Carlo if it has a seed,
-/// interleaved.
+/// interleaved, with rounds for `budget_s` seconds.
 ///
 /// # Errors
 /// [`RenderError`] if a kernel cannot be made or the device fails.
@@ -106,9 +106,9 @@ pub(super) fn times(
     shading: &dyn Shading,
     approximations: usize,
     seed: Option<u64>,
+    budget_s: f64,
 ) -> Result<Times, RenderError> {
-    let options =
-        TimingOptions { budget_s: 2.0, compile_limit_s: COMPILE_LIMIT_S, ..shading.timing() };
+    let options = TimingOptions { budget_s, compile_limit_s: COMPILE_LIMIT_S, ..shading.timing() };
     let mut groups =
         (0..approximations).map(|at| shading.timed(at)).collect::<Result<Vec<_>, _>>()?;
     groups.push(shading.timed_in_full()?);

@@ -14,7 +14,7 @@ pub use fitting::{Job, fit};
 
 use crate::effect::{Candidates, Effect, Member};
 use crate::fit;
-use crate::gpu::{self, Device};
+use crate::gpu::{self, Device, TimingOptions};
 use crate::numeric::measured::Measured;
 use crate::project::{Project, Subject};
 use crate::render::Scenes;
@@ -37,6 +37,8 @@ pub struct Run {
     pub scenes: Scenes,
     /// What fits share.
     pub fits: fit::Context,
+    /// How kernels are timed: briefly, unless a caller wants more.
+    pub timing: TimingOptions,
 }
 
 /// An effect, measured.
@@ -151,6 +153,7 @@ impl Run {
             atlas: Atlas::default(),
             scenes: Scenes::default(),
             fits: fit::Context::new(project.root(), project.registry()),
+            timing: TimingOptions::brief(),
         }
     }
 
@@ -194,10 +197,10 @@ impl Run {
                     .map_err(|source| RunError::Family { family: family.name, source })
             })
             .collect::<Result<Vec<_>, _>>()?;
-        let Self { project, atlas, device, .. } = self;
+        let Self { project, atlas, device, timing, .. } = self;
         let study = study(effect, &subjects, &members, candidates, project, atlas, device)?;
         let groups = timed(effect, &subjects, &members, project, atlas)?;
-        let costs = costs(effect.name, &groups, &timed_references(effect, atlas)?, device)?;
+        let costs = costs(effect.name, &groups, &timed_references(effect, atlas)?, device, timing)?;
         Ok(Studied { effect, subjects, study, costs, members })
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{Run, RunError, Studied, write_accuracy};
 use crate::document::{Colophon, Page};
 use crate::gate::{Check, Judgement, SCENES};
-use crate::render::{Backend, render};
+use crate::render::{Backend, RenderOptions, render};
 use crate::report::html::{Written, write_site};
 use crate::report::pages::{EffectEvidence, SceneEvidence, effect_page, index_page, scenes_page};
 
@@ -93,8 +93,15 @@ impl Run {
         Ok(write_site(folder, &pages, &colophon)?)
     }
 
+    /// Scenes drawn on the device; where that is the same CPU in software, pictures that gates have judged
+    /// on lanes are not drawn again.
     fn rendered(&self, watch: &(dyn Fn(&str) + Sync)) -> Result<Vec<SceneEvidence>, RunError> {
-        let backend = self.device.value().map_or(Backend::Lanes, Backend::Device);
+        let device = self.device.value();
+        let options = RenderOptions {
+            backend: device.map_or(Backend::Lanes, Backend::Device),
+            reuse: device.is_some_and(|device| device.description().is_software()),
+            budget_s: self.timing.budget_s,
+        };
         let scenes = self.project.scenes()?.into_iter();
         scenes
             .map(|path| {
@@ -103,7 +110,7 @@ impl Run {
                 let failed =
                     |source| RunError::Scene { scene: shown.clone(), source: Box::new(source) };
                 let scene = self.scenes.prepared(&path, &self.project).map_err(failed)?;
-                let rendered = render(&scene, backend, &mut |_| ()).map_err(failed)?;
+                let rendered = render(&scene, options, &mut |_| ()).map_err(failed)?;
                 Ok(SceneEvidence { scene, rendered })
             })
             .collect()

@@ -87,11 +87,13 @@ const LEAST_ROUNDS: usize = 3;
 /// Time on the CPU after which a form takes part in no further round, ns: a slow form's passes are
 /// long against the timer and the scheduler already.
 const ENOUGH_NS: f64 = 1.5e8;
+/// Time in which a reference is evaluated at further points, s.
+const REFERENCE_S: f64 = 0.1;
 /// Points per timed pass on the CPU.
-const POINTS: usize = 1 << 14;
+const POINTS: usize = 1 << 13;
 
-/// Times every candidate and reference. The first candidate of each group is the baseline of the
-/// ratios in it.
+/// Times every candidate, on the device by `timing`, and every reference. The first candidate of each
+/// group is the baseline of the ratios in it.
 ///
 /// Points are shuffled, so that a branch on the argument diverges as it would on a screen.
 ///
@@ -102,10 +104,11 @@ pub fn costs(
     groups: &[Vec<Timed>],
     references: &[TimedReference],
     device: &Measured<Device>,
+    timing: &TimingOptions,
 ) -> Result<Costs, ValidateError> {
     let mut forms = Vec::new();
     for group in groups {
-        forms.extend(group_costs(group, device)?);
+        forms.extend(group_costs(group, device, timing)?);
     }
     Ok(Costs {
         effect: effect.to_owned(),
@@ -122,6 +125,7 @@ pub fn costs(
 fn group_costs(
     candidates: &[Timed],
     device: &Measured<Device>,
+    timing: &TimingOptions,
 ) -> Result<Vec<Cost>, ValidateError> {
     let inputs: Vec<Vec<Vec<f64>>> =
         candidates.iter().map(|timed| shuffled(&timed.target.inputs)).collect();
@@ -155,7 +159,7 @@ fn group_costs(
             })?);
         }
     }
-    let timings = device_timings(candidates, &inputs, device)?;
+    let timings = device_timings(candidates, &inputs, device, timing)?;
     let baseline = candidates.first().map(|c| c.candidate.name.clone()).unwrap_or_default();
     Ok(candidates
         .iter()
@@ -196,6 +200,7 @@ fn device_timings(
     candidates: &[Timed],
     inputs: &[Vec<Vec<f64>>],
     device: &Measured<Device>,
+    timing: &TimingOptions,
 ) -> Result<Vec<Measured<TimingFigures>>, ValidateError> {
     let device = match device {
         Measured::Value(device) => device,
@@ -216,23 +221,24 @@ fn device_timings(
         })
         .collect();
     let baseline = candidates.first().map(|timed| timed.candidate.name.clone());
-    let options = TimingOptions { baseline, ..TimingOptions::default() };
+    let options = TimingOptions { baseline, ..timing.clone() };
     let timings = gpu::time(device, &forms, &options)?;
     Ok(timings.into_iter().map(|timing| timing.cost).collect())
 }
 
+/// The mean over as many of the points, in their random order, as [`REFERENCE_S`] allows: one at least.
 fn reference_cost(reference: &Reference, columns: &[Vec<f64>]) -> ReferenceCost {
-    let rows = columns.first().map_or(0, Vec::len).min(POINTS / 8);
-    let points: Vec<Vec<f64>> =
-        (0..rows).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
-    let rounds: Vec<f64> = (0..3)
-        .map(|_| {
-            let start = Instant::now();
-            for point in &points {
-                let _ = black_box(reference.value(black_box(point)));
-            }
-            start.elapsed().as_secs_f64() * 1e9 / rows.max(1) as f64
-        })
-        .collect();
-    ReferenceCost { name: reference.name.to_owned(), ns: percentile(&rounds, 50.0) }
+    let rows = columns.first().map_or(0, Vec::len);
+    let start = Instant::now();
+    let mut evaluated = 0;
+    for row in 0..rows {
+        let point: Vec<f64> = columns.iter().map(|column| column[row]).collect();
+        let _ = black_box(reference.value(black_box(&point)));
+        evaluated += 1;
+        if start.elapsed().as_secs_f64() > REFERENCE_S {
+            break;
+        }
+    }
+    let ns = start.elapsed().as_secs_f64() * 1e9 / f64::from(evaluated.max(1));
+    ReferenceCost { name: reference.name.to_owned(), ns }
 }

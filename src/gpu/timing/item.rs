@@ -3,7 +3,7 @@
 use super::clock::Stopwatch;
 use super::{Device, GpuError, TimingOptions};
 use crate::gpu::dispatch::bind;
-use crate::gpu::program::{Pipeline, Program, UNROLLED, WORKGROUP};
+use crate::gpu::program::{Pipeline, Program, WORKGROUP};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
@@ -28,6 +28,8 @@ pub(super) struct Item {
     points: u32,
     turns: u32,
     usual_turns: u32,
+    /// Evaluations in one turn of the loop.
+    unrolled: u32,
 }
 
 impl Item {
@@ -42,7 +44,7 @@ impl Item {
         let columns = shuffled(inputs, points, options.seed);
         let pipeline = program.pipeline(device)?;
         let points = u32::try_from(points).unwrap_or(1 << 20);
-        let usual_turns = options.repeats.div_ceil(UNROLLED).clamp(1, MOST_TURNS);
+        let usual_turns = options.repeats.div_ceil(program.unrolled).clamp(1, MOST_TURNS);
         let (size, group) = device.guarded(|| {
             let buffer = |label, contents: &[u8], usage| {
                 let descriptor =
@@ -60,12 +62,13 @@ impl Item {
             (size, group)
         })?;
         let groups = points.div_ceil(WORKGROUP);
-        Ok(Self { pipeline, group, groups, size, points, turns: 1, usual_turns })
+        let unrolled = program.unrolled;
+        Ok(Self { pipeline, group, groups, size, points, turns: 1, usual_turns, unrolled })
     }
 
     /// Evaluations in one dispatch.
     pub(super) fn evaluations(&self) -> u64 {
-        u64::from(self.groups) * u64::from(WORKGROUP) * u64::from(self.turns) * u64::from(UNROLLED)
+        u64::from(self.groups) * u64::from(self.turns) * u64::from(WORKGROUP * self.unrolled)
     }
 
     /// Chooses the work of a dispatch so that it takes about `target_ns`, but never less than one
@@ -103,7 +106,7 @@ impl Item {
     /// Workgroups and turns that make about `evaluations` evaluations: every point at least once,
     /// then the usual number of turns, then more invocations, then more turns.
     fn shape(&self, evaluations: f64) -> (u32, u32) {
-        let turns_of = |groups: u32| evaluations / f64::from(groups * WORKGROUP * UNROLLED);
+        let turns_of = |groups: u32| evaluations / f64::from(groups * WORKGROUP * self.unrolled);
         let least = self.points.div_ceil(WORKGROUP);
         // The casts saturate, and NaN becomes 0.
         let groups = (turns_of(1) / f64::from(self.usual_turns)) as u32;

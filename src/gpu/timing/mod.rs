@@ -74,6 +74,11 @@ pub struct TimingOptions {
 impl TimingOptions {
     /// Rounds that are run however long they take.
     pub const LEAST_ROUNDS: usize = 7;
+
+    /// A third of the rounds and of the time: for costs beside something else that is shown.
+    pub fn brief() -> Self {
+        Self { rounds: 21, budget_s: 0.7, ..Self::default() }
+    }
 }
 
 impl Default for TimingOptions {

@@ -1,13 +1,14 @@
 //! One trial run of every kernel before the timing begins.
 //!
 //! A driver may need minutes for a text that naga accepts, in the call that makes the pipeline or
-//! in the first dispatch, and neither can be called off. The trial therefore runs on a thread and
-//! a device of its own, both of which are left behind if a kernel takes longer than the limit.
+//! in the first dispatch, and neither can be called off. The trial therefore runs on threads
+//! with devices of their own, which are left behind if a kernel takes longer than the limit.
 
 use super::clock::Stopwatch;
 use super::item::Item;
 use super::{Device, GpuError, TimingOptions};
 use crate::gpu::program::Program;
+use rayon::prelude::*;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
@@ -30,8 +31,18 @@ impl Candidate {
 /// Whether a kernel can be timed, else the reason why not.
 type Verdict = Result<(), String>;
 
+/// Most devices on trial at a time.
+const MOST_DEVICES: usize = 4;
+
 /// Compiles and runs each of `candidates` once; one verdict each, in their order.
 pub(super) fn verdicts(candidates: &[Candidate], options: &TimingOptions) -> Vec<Verdict> {
+    // A driver compiles on the thread that asks, so that a share of them on each is done sooner.
+    let threads = rayon::current_num_threads().clamp(1, MOST_DEVICES);
+    let shares = candidates.par_chunks(candidates.len().div_ceil(threads).max(1));
+    shares.flat_map_iter(|share| verdicts_in_turn(share, options)).collect()
+}
+
+fn verdicts_in_turn(candidates: &[Candidate], options: &TimingOptions) -> Vec<Verdict> {
     // NaN and negative numbers give no time at all, infinity all there is.
     let limit = Duration::try_from_secs_f64(options.compile_limit_s.max(0.0));
     collect(candidates.len(), limit.unwrap_or(Duration::MAX), |first| {
