@@ -59,7 +59,6 @@ mod far_field;
 mod illuminant;
 mod laws;
 mod orders;
-mod parameters;
 mod preparation;
 mod reference;
 mod regions;
@@ -92,85 +91,61 @@ pub use table::{
     relative_l2,
 };
 
+use std::sync::LazyLock;
+
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{Effect, Evaluate, FormText, Quantity, Reference, arguments};
+use crate::effect::{Effect, Evaluate, FormText, Functions, arguments};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/diffraction/forms");
 
 /// The effect, as registered.
-pub const EFFECT: Effect = Effect {
-    name: "diffraction",
-    title: "Diffraction tables",
-    description: "Where the relief of a surface sends light: a table over the projected half vector, \
-                  from measured or simulated heights or from a pattern at one wavelength. Renderers \
-                  filter environments with it; the powers of orders check it.",
-    references: &[SINUSOID, ZERO_ORDER, FIRST_ORDER, RECTANGLE],
-    forms: || FormText::embedded("src/effects/diffraction/forms", &FORMS),
-    simulators: &[simulate::SIMULATOR],
-    regions: regions::REGIONS,
-    hard_cases: &[regions::HARD_CASES],
-    laws: laws::LAWS,
-    baselines: &["diffraction/zero_first_order", "diffraction/one_first_order"],
-    claims: claims::CLAIMS,
-    exhibits: exhibits::exhibits,
-    ..Effect::EMPTY
-};
+pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
+    let functions = Functions {
+        forms: || FormText::embedded("src/effects/diffraction/forms", &FORMS),
+        references: REFERENCES,
+        simulators: &[("diffraction", simulate::run)],
+        regions: regions::REGIONS,
+        hard_cases: regions::HARD_CASES,
+        laws: laws::LAWS,
+        claims: claims::CLAIMS,
+        exhibits: exhibits::exhibits,
+        ..Functions::NONE
+    };
+    Effect::of_text(include_str!("effect.toml"), functions)
+});
 
-const ORDER: Quantity = Quantity { name: "order", unit: "1", domain: "whole, 0 to 10" };
-const PHASE: Quantity = Quantity { name: "phase", unit: "rad", domain: "[0, 20]" };
-
-const SINUSOID: Reference = Reference {
-    name: "sinusoid_order_power",
-    description: "share of the power that a sinusoidal relief sends into an order, J_m(a)^2 of the \
-                  amplitude of the phase a = k w b",
-    arguments: &[ORDER, PHASE],
-    unit: "1",
-    accuracy: "absolute error <= 1e-13 (tests/diffraction.rs)",
-    source: "Jacobi-Anger expansion; Goodman, Introduction to Fourier Optics, 4.4.4",
-    evaluate: Evaluate::Scalar(|point| {
-        let [order, phase] = arguments(point)?;
-        sinusoid_order_power(reference::whole(order)?, phase)
-    }),
-};
-
-/// Order 0, of the amplitude of the phase alone: what forms approximate.
-pub(super) const ZERO_ORDER: Reference = Reference {
-    name: "sinusoid_zero_order",
-    description: "share of the power that a sinusoidal relief leaves in the mirror direction, J_0(a)^2",
-    arguments: &[PHASE],
-    evaluate: Evaluate::Scalar(|point| {
-        let [phase] = arguments(point)?;
-        sinusoid_order_power(0, phase)
-    }),
-    ..SINUSOID
-};
-
-/// Order 1 or -1, of the amplitude of the phase alone.
-pub(super) const FIRST_ORDER: Reference = Reference {
-    name: "sinusoid_first_order",
-    description: "share of the power that a sinusoidal relief sends into one first order, J_1(a)^2",
-    arguments: &[PHASE],
-    evaluate: Evaluate::Scalar(|point| {
-        let [phase] = arguments(point)?;
-        sinusoid_order_power(1, phase)
-    }),
-    ..SINUSOID
-};
-
-const RECTANGLE: Reference = Reference {
-    name: "rectangular_order_power",
-    description: "share of the power that a rectangular relief sends into an order, by its duty and \
-                  the phase k w D of its depth",
-    arguments: &[ORDER, Quantity { name: "duty", unit: "1", domain: "[0, 1]" }, PHASE],
-    unit: "1",
-    accuracy: "absolute error <= 1e-13 (tests/diffraction.rs)",
-    source: "Fourier series of a rectangular phase",
-    evaluate: Evaluate::Scalar(|point| {
-        let [order, duty, phase] = arguments(point)?;
-        rectangular_order_power(reference::whole(order)?, duty, phase)
-    }),
-};
+const REFERENCES: &[(&str, Evaluate)] = &[
+    (
+        "sinusoid_order_power",
+        Evaluate::Scalar(|point| {
+            let [order, phase] = arguments(point)?;
+            sinusoid_order_power(reference::whole(order)?, phase)
+        }),
+    ),
+    // Of the amplitude of the phase alone: what forms approximate.
+    (
+        "sinusoid_zero_order",
+        Evaluate::Scalar(|point| {
+            let [phase] = arguments(point)?;
+            sinusoid_order_power(0, phase)
+        }),
+    ),
+    (
+        "sinusoid_first_order",
+        Evaluate::Scalar(|point| {
+            let [phase] = arguments(point)?;
+            sinusoid_order_power(1, phase)
+        }),
+    ),
+    (
+        "rectangular_order_power",
+        Evaluate::Scalar(|point| {
+            let [order, duty, phase] = arguments(point)?;
+            rectangular_order_power(reference::whole(order)?, duty, phase)
+        }),
+    ),
+];
 
 #[cfg(test)]
 mod tests;

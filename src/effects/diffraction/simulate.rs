@@ -1,7 +1,6 @@
 //! Diffraction tables from settings: what `striae simulate diffraction` and renderers ask for.
 
 use super::illuminant::IlluminantChoice;
-use super::parameters::PARAMETERS;
 use super::preparation::{Detrend, Missing, Preparation, PreparedHeights, Window, prepared};
 use super::surfaces::{
     CompactDisc, Grating, HolographicPaper, Patch, PixelLattice, Profile, compact_disc, grating,
@@ -10,27 +9,20 @@ use super::surfaces::{
 use super::table::{
     Channels, DiffractionTable, PatternPlacing, TableShape, of_pattern, of_surface,
 };
-use super::{DiffractionError, simulation};
-use crate::effect::simulator::{Settings, SettingsError, Simulation, SimulationError, Simulator};
+use super::{DiffractionError, EFFECT, simulation};
+use crate::effect::simulator::{Settings, SettingsError, Simulation, SimulationError};
 use crate::measured::height_map::HeightMap;
 use crate::measured::pattern::{Encoding, Pattern};
 use crate::measured::spectra::Spectra;
 use crate::table::Grid;
-
-/// The simulator, as registered.
-pub(super) const SIMULATOR: Simulator = Simulator {
-    name: "diffraction",
-    description: "diffraction table over the projected half vector, from heights or a pattern",
-    parameters: PARAMETERS,
-    run,
-};
 
 /// Settings of the simulator from `key=value` texts.
 ///
 /// # Errors
 /// As [`Settings::parse`].
 pub fn settings<S: AsRef<str>>(assignments: &[S]) -> Result<Settings, SettingsError> {
-    Settings::parse(PARAMETERS, assignments)
+    let parameters = EFFECT.simulators.first().map_or(&[][..], |simulator| simulator.parameters);
+    Settings::parse(parameters, assignments)
 }
 
 /// The diffraction table that the settings describe, in sr⁻¹ over h_x and h_y.
@@ -41,7 +33,7 @@ pub fn simulated_table(settings: &Settings, spectra: &Spectra) -> Result<Grid, D
     Ok(table(settings, spectra)?.0.grid)
 }
 
-fn run(settings: &Settings, spectra: &Spectra) -> Result<Simulation, SimulationError> {
+pub(super) fn run(settings: &Settings, spectra: &Spectra) -> Result<Simulation, SimulationError> {
     let described = || -> Result<Simulation, DiffractionError> {
         let (table, source) = table(settings, spectra)?;
         simulation::described(settings, table, source)
@@ -97,7 +89,7 @@ pub(super) fn shape(settings: &Settings) -> Result<TableShape, DiffractionError>
     let size = settings.count("size", 1, 2048)?;
     let extent = number_or(settings, "extent", 1e-3, 2.0, || {
         let from_file = settings.is_given("heightmap") || settings.is_given("pattern");
-        let screen = matches!(settings.text("surface"), Ok("display" | "phone"));
+        let screen = settings.text("surface").is_ok_and(is_screen);
         if screen && !from_file { 0.15 } else { 1.0 }
     })?;
     let rgb = settings.choice("channels", &[("rgb", true), ("spectral", false)])?;
@@ -154,8 +146,9 @@ fn pattern(settings: &Settings) -> Result<Option<(Pattern, PatternPlacing)>, Dif
     }
     for other in ["surface", "heightmap"] {
         if settings.is_given(other) {
-            let reason = format!("a table is made from a pattern or from a {other}, not from both");
-            return Err(SettingsError::Conflict { key: "pattern".into(), reason }.into());
+            let fault =
+                format!(": a table is made from a pattern or from a {other}, not from both");
+            return Err(SettingsError::new("pattern", fault).into());
         }
     }
     let encodings = [("srgb", Encoding::Srgb), ("linear", Encoding::Linear)];
@@ -183,13 +176,21 @@ fn pattern(settings: &Settings) -> Result<Option<(Pattern, PatternPlacing)>, Dif
 fn heights(settings: &Settings) -> Result<HeightMap, DiffractionError> {
     if settings.is_given("heightmap") {
         if settings.is_given("surface") {
-            let reason = "a table is made from a heightmap or from a surface, not from both";
-            let key = "heightmap".into();
-            return Err(SettingsError::Conflict { key, reason: reason.into() }.into());
+            let fault = ": a table is made from a heightmap or from a surface, not from both";
+            return Err(SettingsError::new("heightmap", fault).into());
         }
         return Ok(HeightMap::read(settings.text("heightmap")?)?);
     }
     Ok(simulated_heights(settings)?)
+}
+
+/// Surfaces that can be simulated.
+const SURFACES: [&str; 7] =
+    ["compact_disc", "sinusoid", "rectangle", "blazed", "display", "phone", "holographic_paper"];
+
+/// Whether a surface is that of a screen.
+fn is_screen(surface: &str) -> bool {
+    matches!(surface, "display" | "phone")
 }
 
 /// Heights of the simulated surface that the settings describe.
@@ -197,19 +198,8 @@ fn heights(settings: &Settings) -> Result<HeightMap, DiffractionError> {
 /// # Errors
 /// [`SettingsError`] for a setting outside its domain.
 pub fn simulated_heights(settings: &Settings) -> Result<HeightMap, SettingsError> {
-    let surface = settings.choice(
-        "surface",
-        &[
-            ("compact_disc", Surface::CompactDisc),
-            ("sinusoid", Surface::Sinusoid),
-            ("rectangle", Surface::Rectangle),
-            ("blazed", Surface::Blazed),
-            ("display", Surface::Display),
-            ("phone", Surface::Phone),
-            ("holographic_paper", Surface::HolographicPaper),
-        ],
-    )?;
-    let screen = matches!(surface, Surface::Display | Surface::Phone);
+    let surface = settings.choice("surface", &SURFACES.map(|name| (name, name)))?;
+    let screen = is_screen(surface);
     let patch = Patch {
         samples: settings.count("samples", 16, 4096)?,
         side_um: number_or(settings, "side_um", 1e-2, 1e6, || if screen { 409.6 } else { 51.2 })?,
@@ -236,7 +226,7 @@ pub fn simulated_heights(settings: &Settings) -> Result<HeightMap, SettingsError
         Ok(pixel_lattice(lattice, patch))
     };
     match surface {
-        Surface::CompactDisc => {
+        "compact_disc" => {
             let disc = CompactDisc {
                 pitch_um: length("pitch_um", 1.6)?,
                 pit_width_um: settings.number("pit_width_um", 1e-3, 1e6)?,
@@ -246,17 +236,16 @@ pub fn simulated_heights(settings: &Settings) -> Result<HeightMap, SettingsError
             };
             Ok(compact_disc(disc, patch))
         }
-        Surface::Sinusoid => {
-            of_grating(Profile::Sinusoid { amplitude_nm: height("amplitude_nm", 30.0)? })
-        }
-        Surface::Rectangle => of_grating(Profile::Rectangle {
+        "sinusoid" => of_grating(Profile::Sinusoid { amplitude_nm: height("amplitude_nm", 30.0)? }),
+        "rectangle" => of_grating(Profile::Rectangle {
             depth_nm: height("depth_nm", 120.0)?,
             duty: settings.number("duty", 0.0, 1.0)?,
         }),
-        Surface::Blazed => of_grating(Profile::Blazed { height_nm: height("depth_nm", 200.0)? }),
-        Surface::Display => of_pixels(50.0, 20.0, 0.0),
-        Surface::Phone => of_pixels(40.0, 35.0, 12.0),
-        Surface::HolographicPaper => {
+        "blazed" => of_grating(Profile::Blazed { height_nm: height("depth_nm", 200.0)? }),
+        "display" => of_pixels(50.0, 20.0, 0.0),
+        "phone" => of_pixels(40.0, 35.0, 12.0),
+        // Holographic paper.
+        _ => {
             let paper = HolographicPaper {
                 cell_um: settings.number("cell_um", 0.5, 1e6)?,
                 pitch_um: [length("pitch_um", 1.0)?, settings.number("pitch_max_um", 1e-3, 1e6)?],
@@ -267,15 +256,4 @@ pub fn simulated_heights(settings: &Settings) -> Result<HeightMap, SettingsError
             Ok(holographic_paper(paper, patch))
         }
     }
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Surface {
-    CompactDisc,
-    Sinusoid,
-    Rectangle,
-    Blazed,
-    Display,
-    Phone,
-    HolographicPaper,
 }

@@ -1,14 +1,15 @@
 //! What is shown of the lights: error against the size of the light, the width of the lobe and the
 //! direction of an edge, the cheapest form for an error, and the hard cases.
 
-use super::columns::{SPHERE, TRIANGLE, sphere_row, table, triangle_row};
+use super::columns::{sphere_row, table, triangle_row};
 use super::draws::{Draw, limbs};
 use super::errors::{exact, light_of, named, relative_l2, single};
 use super::hard_exhibit::hard_cases;
 use super::regions::{KS, REGIONS};
+use super::{SPHERE, TRIANGLE};
 use crate::document::plot::{Plot, PlotAxis, Series};
 use crate::document::{Cell, Figure, PrintedTable, Section};
-use crate::effect::{Candidates, ClaimError, Quantity};
+use crate::effect::{Candidates, ClaimError};
 
 /// What is done across the slices, in order of the number of slices.
 const ACROSS: [(&str, &str); 8] = [
@@ -33,7 +34,7 @@ fn sweeps(candidates: &Candidates) -> Result<Section, ClaimError> {
     let radii: Vec<f64> = (0..9).map(|i| 1e-3 * 10_f64.powf(f64::from(i) * 0.36)).collect();
     let by_radius = figure(
         candidates,
-        &SPHERE,
+        SPHERE,
         ("light-angular-radius", "k sigma = 250, the origin line anywhere across the sphere"),
         ("Error against the angular radius of a sphere", PlotAxis::log("angular radius", "rad")),
         &radii,
@@ -45,7 +46,7 @@ fn sweeps(candidates: &Candidates) -> Result<Section, ClaimError> {
     let lobes: Vec<f64> = (0..9).map(|i| 10.0 * 10_f64.powf(f64::from(i) * 0.3)).collect();
     let by_ks = figure(
         candidates,
-        &SPHERE,
+        SPHERE,
         ("light-coherence", "angular radius 0.05 rad, the origin line anywhere across the sphere"),
         ("Error against the width of the lobe", PlotAxis::log("k sigma", "1")),
         &lobes,
@@ -57,7 +58,7 @@ fn sweeps(candidates: &Candidates) -> Result<Section, ClaimError> {
     let angles: Vec<f64> = (0..9).map(|i| 2.0 + 10.5 * f64::from(i)).collect();
     let by_angle = figure(
         candidates,
-        &TRIANGLE,
+        TRIANGLE,
         (
             "light-edge-angle",
             "k sigma = 250, a large triangle with an edge through the mirror direction, at this angle to the \
@@ -81,7 +82,7 @@ fn sweeps(candidates: &Candidates) -> Result<Section, ClaimError> {
 
 fn figure<const N: usize>(
     candidates: &Candidates,
-    arguments: &[Quantity; N],
+    of: &str,
     (stem, caption): (&str, &str),
     (title, x): (&str, PlotAxis),
     abscissae: &[f64],
@@ -90,7 +91,7 @@ fn figure<const N: usize>(
     let mut draw = Draw::new(51);
     let rows: Vec<[f64; N]> =
         (0..abscissae.len() * DRAWS).map(|at| row(&mut draw, abscissae[at / DRAWS])).collect();
-    let points = table(arguments, &rows, stem);
+    let points = table(of, &rows, stem);
     let (light, reference) = light_of(&points);
     let exact = exact(reference, &points)?;
     let mut plot = Plot::new(title, x, PlotAxis::log("relative L2 error", "1"));
@@ -152,8 +153,8 @@ fn cheapest(candidates: &Candidates) -> Result<Section, ClaimError> {
     columns.push(("single line, published Si".to_owned(), "1"));
     columns.extend(SLICES.map(|name| (name.replace("_medium", ""), "1")));
     let mut rows = Vec::new();
-    for region in &REGIONS {
-        let Some(fitted) = region.fitted else { continue };
+    for (region, _, fitted) in REGIONS {
+        let Some(fitted) = fitted else { continue };
         let points = fitted();
         let (light, reference) = light_of(&points);
         let exact = exact(reference, &points)?;
@@ -172,7 +173,7 @@ fn cheapest(candidates: &Candidates) -> Result<Section, ClaimError> {
                 .iter()
                 .map(|all| all.as_ref().map(|all| relative_l2(&pick(all), &pick(&exact))))
                 .collect();
-            let mut row = vec![region.name.into(), ks.into()];
+            let mut row = vec![Cell::text(*region), ks.into()];
             row.extend(ASKED.map(|(limit, _)| {
                 let mut known = SLICES.iter().zip(errors.iter().skip(1));
                 let found = known.find(|(_, error)| error.is_some_and(|error| error <= limit));

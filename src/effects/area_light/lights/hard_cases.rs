@@ -2,38 +2,18 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::columns::{SPHERE, TRIANGLE, sphere_row, table, triangle_row};
+use super::columns::{sphere_row, table, triangle_row};
 use super::draws::{Draw, limbs, unit};
-use crate::effect::Region;
+use super::{SPHERE, TRIANGLE};
+use crate::effect::Points;
 use crate::table::Table;
 
 /// Cases of each kind.
 const EACH: usize = 400;
 
-/// Hard cases of the lights.
-pub(in super::super) const HARD_CASES: [Region; 2] = [
-    Region {
-        name: "hard spheres",
-        description: "limbs on the origin line and next to it (tangency, a double root), the axis along t, b \
-                      and n, t = 0, b = 0, the mirror direction, r >= distance and r = distance to \
-                      rounding, lights below, at and across the horizon, grazing to 89.9 degrees and \
-                      beyond, kW from 0.6 to 6283, k sigma from 1 to 1e4, far lobes, a limb at q = 0, \
-                      lights of 1e-6 rad, lengths from 1e-6 to 1e6: 400 of each",
-        points: spheres,
-        ..Region::EMPTY
-    },
-    Region {
-        name: "hard triangles",
-        description: "vertices on the origin line, edges along it and tangent to it (a double root), \
-                      edges in the planes t = 0 and b = 0, slivers, repeated and collinear vertices, the \
-                      shaded point in the plane of the triangle and at a vertex, triangles below, at and \
-                      across the horizon, around the zenith and the nadir, grazing views to 89.9 degrees \
-                      and beyond, kW from 0.6 to 6283, k sigma from 1 to 1e4, far lobes, a crossing at \
-                      q = 0, lights of 1e-5 rad, lengths from 1e-6 to 1e6: 400 of each",
-        points: triangles,
-        ..Region::EMPTY
-    },
-];
+/// Hard cases of the lights, by name.
+pub(in super::super) const HARD_CASES: &[(&str, Points)] =
+    &[("hard spheres", spheres), ("hard triangles", triangles)];
 
 /// A sphere seen under `half_angle` around `axis`, for a view.
 struct Sphere {
@@ -176,7 +156,7 @@ fn spheres() -> Table {
         .iter()
         .flat_map(|kind| (0..EACH).map(|_| kind(&mut draw).row()).collect::<Vec<_>>())
         .collect();
-    table(&SPHERE, &rows, "hard spheres")
+    table(SPHERE, &rows, "hard spheres")
 }
 
 /// A triangle and a view of it.
@@ -371,5 +351,5 @@ fn triangles() -> Table {
         .iter()
         .flat_map(|kind| (0..EACH).map(|_| kind(&mut draw).row()).collect::<Vec<_>>())
         .collect();
-    table(&TRIANGLE, &rows, "hard triangles")
+    table(TRIANGLE, &rows, "hard triangles")
 }

@@ -45,7 +45,7 @@ const JUDGED: f64 = 1e-6;
 const HALF_ULP: f64 = 5.960_464_477_539_063e-8;
 
 pub(super) fn hard_cases(candidates: &Candidates) -> Result<Section, ClaimError> {
-    let sets = HARD_CASES.map(|set| (set.points)());
+    let sets = HARD_CASES.iter().map(|(_, points)| points()).collect::<Vec<_>>();
     let named: Vec<_> = sets
         .iter()
         .zip(SHOWN)

@@ -5,7 +5,7 @@ use crate::effects::diffraction::preparation::{
     Preparation, PreparedHeights, USUAL, Window, prepared,
 };
 use crate::effects::diffraction::surfaces::{
-    CompactDisc, Grating, Patch, Profile, compact_disc, grating,
+    CompactDisc, Grating, HolographicPaper, Patch, Profile, compact_disc, grating,
 };
 
 /// One row across 32 periods of a grating, sampled 64 times each, without a window: every order falls on a
@@ -23,8 +23,17 @@ pub(super) fn level() -> Preparation {
 }
 
 /// The disc of the exhibits: IEC 60908's pitch, pits of 0.5 by 0.12 µm.
-pub(super) const DISC: CompactDisc =
+const DISC: CompactDisc =
     CompactDisc { pitch_um: 1.6, pit_width_um: 0.5, depth_nm: 120.0, bit_um: 0.278, seed: 1 };
+
+/// The paper of the exhibits and of the claims.
+pub(in crate::effects::diffraction) const PAPER: HolographicPaper = HolographicPaper {
+    cell_um: 8.0,
+    pitch_um: [1.0, 2.0],
+    amplitude_nm: 60.0,
+    spread: 0.2,
+    seed: 1,
+};
 
 /// 51.2 µm of that disc in samples of 0.2 µm.
 pub(super) fn disc() -> Result<PreparedHeights, DiffractionError> {

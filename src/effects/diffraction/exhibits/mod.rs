@@ -10,6 +10,7 @@ mod sections;
 mod wavelengths;
 
 pub(super) use cosine::{fixed_cosine_error, grating_error as cosine_error};
+pub(super) use grating::PAPER;
 pub(super) use jacobian::{disc_furnace, mean_over_disc};
 pub(super) use wavelengths::rule_errors;
 

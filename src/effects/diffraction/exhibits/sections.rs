@@ -1,13 +1,11 @@
 use super::GREEN_NM;
-use super::grating::{disc, level};
+use super::grating::{PAPER, disc, level};
 use crate::document::plot::{Plot, PlotAxis, Series};
 use crate::document::{Cell, Figure, PrintedTable, Section};
 use crate::effect::ClaimError;
 use crate::effects::diffraction::illuminant::IlluminantChoice;
 use crate::effects::diffraction::preparation::{PreparedHeights, prepared};
-use crate::effects::diffraction::surfaces::{
-    Grating, HolographicPaper, Patch, Profile, grating, holographic_paper,
-};
+use crate::effects::diffraction::surfaces::{Grating, Patch, Profile, grating, holographic_paper};
 use crate::effects::diffraction::table::{Channels, NORMAL, TableShape, of_surface};
 use crate::measured::spectra::Spectra;
 use crate::table::Grid;
@@ -32,19 +30,12 @@ fn shape(channels: Channels, wavelengths_nm: Vec<f64>) -> TableShape {
 pub(super) fn exhibit() -> Result<Section, ClaimError> {
     let spectra = Spectra::built_in()?;
     let patch = Patch { samples: 256, side_um: 51.2, line: false };
-    let paper = HolographicPaper {
-        cell_um: 8.0,
-        pitch_um: [1.0, 2.0],
-        amplitude_nm: 60.0,
-        spread: 0.2,
-        seed: 1,
-    };
     let blazed =
         Grating { period_um: 2.0, angle: 0.0, profile: Profile::Blazed { height_nm: 200.0 } };
     let surfaces: [(&str, PreparedHeights); 3] = [
         ("disc", disc()?),
         ("blazed", prepared(&grating(blazed, patch), level())?),
-        ("holographic paper", prepared(&holographic_paper(paper, patch), level())?),
+        ("holographic paper", prepared(&holographic_paper(PAPER, patch), level())?),
     ];
     let wavelengths: Vec<f64> = (0..=20).map(|i| 380.0 + 20.0 * f64::from(i)).collect();
     let rgb = shape(Channels::Rgb(IlluminantChoice::D65), wavelengths);
