@@ -2,6 +2,7 @@
 
 pub mod candidate;
 pub mod claim;
+mod exhibit;
 mod form_library;
 mod form_text;
 pub mod points;
@@ -15,10 +16,11 @@ use crate::document::Section;
 use crate::table::Table;
 pub use candidate::{Candidate, CandidateError, Candidates, ConstantsOf};
 pub use claim::{Claim, ClaimError, Finding, Found};
+pub(crate) use exhibit::Exhibit;
 pub use form_library::{FormEntry, FormLibrary};
 pub use form_text::{FormText, FormTextError, FormTextFault, TextPlace};
 use simulator::Simulator;
-pub(crate) use text::{Functions, Points};
+pub(crate) use text::{Functions, Points, Scalar};
 pub use values::{NoValue, ReferenceValues};
 
 /// A quantity a reference takes or returns.

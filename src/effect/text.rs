@@ -8,21 +8,23 @@ use serde::{Deserialize, Deserializer};
 use super::claim::Check;
 use super::simulator::{Simulate, Simulator};
 use super::{
-    Candidates, Claim, ClaimError, Effect, Evaluate, Family, FormText, Goal, Law, Reference,
-    Region, Violation,
+    Candidates, Claim, ClaimError, DomainError, Effect, Evaluate, Family, FormText, Goal, Law,
+    Reference, Region, Violation,
 };
 use crate::document::Section;
 use crate::table::Table;
 
 /// Makes the points of a region.
 pub(crate) type Points = fn() -> Table;
+/// A reference that returns one number.
+pub(crate) type Scalar = fn(&[f64]) -> Result<f64, DomainError>;
 
 /// What an effect computes, by the names in its text.
 pub(crate) struct Functions<'a> {
     /// Texts of its forms.
     pub(crate) forms: fn() -> Vec<FormText>,
     /// Values of the references.
-    pub(crate) references: &'a [(&'a str, Evaluate)],
+    pub(crate) references: &'a [(&'a str, Scalar)],
     /// Points that are judged, and those that are fitted, if there are any.
     pub(crate) regions: &'a [(&'a str, Points, Option<Points>)],
     /// Hard points.
@@ -94,7 +96,7 @@ impl Effect {
                 text.reference,
                 functions.references,
                 |of| of.name,
-                |of, evaluate| of.evaluate = evaluate,
+                |of, value| of.evaluate = Evaluate::Scalar(value),
             ),
             forms: functions.forms,
             simulators: told(

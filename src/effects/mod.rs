@@ -29,6 +29,35 @@ fn written(effect: &crate::effect::Effect) -> crate::effect::Candidates {
     written.map(std::sync::Arc::new).collect()
 }
 
+/// What is found of every claim of `effect`, with the constants of the texts.
+#[cfg(test)]
+fn found(effect: &crate::effect::Effect) -> Vec<String> {
+    let findings = crate::effect::claim::check(effect.claims, &written(effect));
+    println!("{findings:#?}");
+    assert!(findings.iter().all(|finding| finding.verdict != "not evaluated"));
+    let found: Vec<String> = findings.into_iter().map(|finding| finding.found).collect();
+    assert!(found.iter().all(|found| !found.contains("NaN")));
+    found
+}
+
+/// Laws hold for what is `exact`, and find forms that break them or have no values.
+#[cfg(test)]
+fn assert_laws_bite<'a>(
+    laws: impl Iterator<Item = &'a crate::effect::Law>,
+    exact: crate::effect::FormValues<'_>,
+    broken: crate::effect::FormValues<'_>,
+) {
+    for law in laws {
+        let violation = (law.violation)(exact);
+        assert!(violation <= law.tolerance, "{}: {violation:e}", law.name);
+        let forms: [crate::effect::FormValues<'_>; 3] =
+            [broken, &|_| vec![f32::NAN], &|_| Vec::new()];
+        for form in forms {
+            assert!((law.violation)(form) > law.tolerance, "{}", law.name);
+        }
+    }
+}
+
 /// Holds every form of `effect`, with the constants of its text, to the list of laws: a known violation
 /// that has gone is a fault too.
 #[cfg(test)]

@@ -14,6 +14,9 @@ use crate::effect::{Effect, FormText, Functions};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/area_light/forms");
 
+/// What is said of the exhibits.
+const TEXTS: &str = include_str!("exhibits.toml");
+
 /// The effect, as registered.
 pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
     let functions = Functions {

@@ -9,7 +9,7 @@ use super::exhibits::{
 };
 use super::preparation::{USUAL, prepared};
 use super::surfaces::{Patch, holographic_paper};
-use super::table::{Channels, NORMAL, TableShape, of_surface, relative_l2};
+use super::table::{NORMAL, TableShape, of_surface, relative_l2};
 use super::{DiffractionError, sinusoid_order_power};
 use crate::effect::claim::Check;
 use crate::effect::{Candidates, ClaimError, Found};
@@ -114,12 +114,7 @@ fn reflection(_: &Candidates) -> Result<Found, ClaimError> {
 fn cross_terms(_: &Candidates) -> Result<Found, ClaimError> {
     let patch = Patch { samples: 128, side_um: 25.6, line: false };
     let surface = prepared(&holographic_paper(PAPER, patch), USUAL)?;
-    let shape = TableShape {
-        size: [65, 65],
-        extent: 1.0,
-        wavelengths_nm: vec![GREEN_NM],
-        channels: Channels::Spectral,
-    };
+    let shape = TableShape::at(GREEN_NM, [65, 65], 1.0);
     let grid = of_surface(&surface, &shape, 2, NORMAL, &Spectra::built_in()?)?.grid;
     let decomposition = Decomposition::of(&grid).map_err(DiffractionError::from)?;
     // Both kernels are of the same orthogonal terms, so that the share of the table's norm in one is

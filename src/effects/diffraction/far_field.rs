@@ -124,17 +124,24 @@ impl FarField {
 
     /// Share of the power with f inside `inside`, by the centres of the cells, µm⁻¹.
     pub fn share(&self, inside: impl Fn(f64, f64) -> bool) -> f64 {
-        let fx: Vec<f64> = (0..self.x.count).map(|i| self.x.centre(i)).collect();
-        let rows = self.power.chunks(self.x.count.max(1)).enumerate();
-        let kept = rows.flat_map(|(y, row)| {
-            let fy = self.y.centre(y);
-            row.iter()
-                .zip(&fx)
-                .filter(|(_, fx)| inside(**fx, fy))
-                .map(|(p, _)| *p)
-                .collect::<Vec<_>>()
-        });
-        crate::numeric::statistics::sum(kept)
+        let [nx, ny] = [self.x.count, self.y.count];
+        let cells = (0..ny).flat_map(|y| (0..nx).map(move |x| (x, y))).zip(&self.power);
+        let kept = cells.filter(|((x, y), _)| inside(self.x.centre(*x), self.y.centre(*y)));
+        crate::numeric::statistics::sum(kept.map(|(_, power)| *power))
+    }
+
+    /// The strongest of the cells that are `allowed`, by place along x and y: its power and place, power
+    /// 0 if there is none.
+    pub(super) fn strongest(&self, allowed: impl Fn(usize, usize) -> bool) -> (f64, usize, usize) {
+        let mut best = (0.0, 0, 0);
+        for (y, row) in self.power.chunks(self.x.count).enumerate() {
+            for (x, power) in row.iter().enumerate() {
+                if *power > best.0 && allowed(x, y) {
+                    best = (*power, x, y);
+                }
+            }
+        }
+        best
     }
 
     /// Share of the power beyond |h| = 1, which no direction of light has: evanescent in Kirchhoff's

@@ -42,29 +42,20 @@ fn worst(
 #[cfg(test)]
 mod tests {
     use super::super::EFFECT;
+    use crate::effects::assert_laws_bite;
     use crate::effects::diffraction::sinusoid_order_power;
     use crate::table::Table;
 
     #[test]
-    fn the_exact_powers_keep_every_law() {
-        for law in EFFECT.laws {
-            let order = u32::from(law.references == ["sinusoid_first_order"]);
+    fn the_exact_powers_keep_every_law_and_others_are_found() {
+        for order in [0, 1] {
             let exact = |points: &Table| -> Vec<f32> {
                 let power = |a: &f64| sinusoid_order_power(order, *a).expect("in the domain");
                 points.columns[0].values.iter().map(|a| power(a) as f32).collect()
             };
-            let violation = (law.violation)(&exact);
-            assert!(violation <= law.tolerance, "{}: {violation:e}", law.name);
-        }
-    }
-
-    #[test]
-    fn forms_that_break_them_are_found() {
-        for law in EFFECT.laws {
-            let off = |points: &Table| vec![1.5; points.rows()];
-            assert!((law.violation)(&off) > law.tolerance, "{}", law.name);
-            assert!((law.violation)(&|_| vec![f32::NAN]) > law.tolerance, "{}", law.name);
-            assert!((law.violation)(&|_| Vec::new()) > law.tolerance, "{}", law.name);
+            let reference = ["sinusoid_zero_order", "sinusoid_first_order"][order as usize];
+            let laws = EFFECT.laws.iter().filter(|law| law.references == [reference]);
+            assert_laws_bite(laws, &exact, &|points| vec![1.5; points.rows()]);
         }
     }
 }

@@ -87,15 +87,15 @@ pub use surfaces::{
     holographic_paper, pixel_lattice,
 };
 pub use table::{
-    Channels, DiffractionTable, NORMAL, PatternPlacing, TableShape, of_pattern, of_surface,
-    relative_l2,
+    Channels, DiffractionTable, NORMAL, PatternPlacing, PowerShares, TableShape, of_pattern,
+    of_surface, relative_l2,
 };
 
 use std::sync::LazyLock;
 
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{Effect, Evaluate, FormText, Functions, arguments};
+use crate::effect::{Effect, FormText, Functions, Scalar, arguments};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/diffraction/forms");
 
@@ -115,36 +115,18 @@ pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
     Effect::of_text(include_str!("effect.toml"), functions)
 });
 
-const REFERENCES: &[(&str, Evaluate)] = &[
-    (
-        "sinusoid_order_power",
-        Evaluate::Scalar(|point| {
-            let [order, phase] = arguments(point)?;
-            sinusoid_order_power(reference::whole(order)?, phase)
-        }),
-    ),
+const REFERENCES: &[(&str, Scalar)] = &[
+    ("sinusoid_order_power", |point| {
+        let [order, phase] = arguments(point)?;
+        sinusoid_order_power(reference::whole(order)?, phase)
+    }),
     // Of the amplitude of the phase alone: what forms approximate.
-    (
-        "sinusoid_zero_order",
-        Evaluate::Scalar(|point| {
-            let [phase] = arguments(point)?;
-            sinusoid_order_power(0, phase)
-        }),
-    ),
-    (
-        "sinusoid_first_order",
-        Evaluate::Scalar(|point| {
-            let [phase] = arguments(point)?;
-            sinusoid_order_power(1, phase)
-        }),
-    ),
-    (
-        "rectangular_order_power",
-        Evaluate::Scalar(|point| {
-            let [order, duty, phase] = arguments(point)?;
-            rectangular_order_power(reference::whole(order)?, duty, phase)
-        }),
-    ),
+    ("sinusoid_zero_order", |point| arguments(point).and_then(|[a]| sinusoid_order_power(0, a))),
+    ("sinusoid_first_order", |point| arguments(point).and_then(|[a]| sinusoid_order_power(1, a))),
+    ("rectangular_order_power", |point| {
+        let [order, duty, phase] = arguments(point)?;
+        rectangular_order_power(reference::whole(order)?, duty, phase)
+    }),
 ];
 
 #[cfg(test)]

@@ -60,14 +60,13 @@ fn number(value: f64) -> Cell {
 
 /// Shares of the power at the first, the middle and the last wavelength.
 fn energies(table: &DiffractionTable) -> PrintedTable {
-    let last = table.wavelengths_nm.len().saturating_sub(1);
+    let last = table.shares.len().saturating_sub(1);
     let mut at = vec![0, last / 2, last];
     at.dedup();
-    let row = |i: usize| -> Option<Vec<Cell>> {
-        let (total, inside) = (*table.total.get(i)?, *table.inside.get(i)?);
-        let (wavelength, evanescent) = (*table.wavelengths_nm.get(i)?, *table.evanescent.get(i)?);
-        Some([wavelength, total, inside, total - inside, evanescent].map(number).to_vec())
-    };
+    let rows = at.into_iter().filter_map(|i| table.shares.get(i)).map(|of| {
+        let outside = of.total - of.inside;
+        [of.wavelength_nm, of.total, of.inside, outside, of.evanescent].map(number).to_vec()
+    });
     PrintedTable::of_rows(
         "Shares of the reflected power",
         [
@@ -77,7 +76,7 @@ fn energies(table: &DiffractionTable) -> PrintedTable {
             ("outside", "1"),
             ("beyond |h| = 1", "1"),
         ],
-        at.into_iter().filter_map(row),
+        rows,
     )
 }
 
@@ -152,20 +151,14 @@ fn order_table(
             predicted_power(order.order.unsigned_abs(), phase.min(20.0), error).ok()
         });
         let [power, uncertainty] = match predicted {
-            Some((power, uncertainty)) => [number(power), number(uncertainty)],
+            Some((power, uncertainty)) => [power, uncertainty].map(number),
             None => ["–", "–"].map(Cell::text),
         };
-        rows.push(vec![
-            number(f64::from(order.order)),
-            number(order.predicted[0]),
-            number(order.predicted[1]),
-            number(order.found[0]),
-            number(order.found[1]),
-            number(order.texels_off),
-            power,
-            uncertainty,
-            number(order.power),
-        ]);
+        let ([x, y], [x_found, y_found]) = (order.predicted, order.found);
+        let places = [f64::from(order.order), x, y, x_found, y_found, order.texels_off];
+        let mut row = places.map(number).to_vec();
+        row.extend([power, uncertainty, number(order.power)]);
+        rows.push(row);
     }
     let table = PrintedTable::of_rows(
         format!("Orders at {} nm: m λ/d, and what the table has", field.wavelength_nm),

@@ -73,15 +73,7 @@ pub fn step_effects(
 fn strongest_order(field: &FarField, side_um: f64) -> ([f64; 2], f64) {
     let [x, y] = field.cells();
     let away = 3.0 / side_um * 1e-3 * field.wavelength_nm;
-    let mut best = (0.0, 0, 0);
-    for (iy, row) in field.power.chunks(x.count).enumerate() {
-        for (ix, power) in row.iter().enumerate() {
-            if x.centre(ix).abs() >= away && *power > best.0 {
-                best = (*power, ix, iy);
-            }
-        }
-    }
-    let (peak, ix, iy) = best;
+    let (peak, ix, iy) = field.strongest(|ix, _| x.centre(ix).abs() >= away);
     let at = |i: usize| field.power.get(iy * x.count + i).copied().unwrap_or(0.0);
     // Distance in cells to where the power falls through a half, linear between cells.
     let walk = |step: fn(usize, usize) -> Option<usize>| {

@@ -91,32 +91,26 @@ fn largest(
 #[cfg(test)]
 mod tests {
     use super::super::EFFECT;
-    use super::super::reference::response;
+    use super::super::line::Mean;
+    use super::super::reference::{coverage, response};
+    use crate::effects::assert_laws_bite;
     use crate::table::Table;
 
-    fn exact(points: &Table) -> Vec<f32> {
+    fn exact(points: &Table, mean: Mean) -> Vec<f32> {
         let [h, s] = [0, 1].map(|at| points.columns[at].values.iter());
-        h.zip(s).map(|(&h, &s)| response(h, s).expect("in the domain") as f32).collect()
+        h.zip(s).map(|(&h, &s)| mean(h, s).expect("in the domain") as f32).collect()
     }
 
     #[test]
-    fn the_exact_response_keeps_every_law() {
-        for law in EFFECT.laws.iter().filter(|law| law.references.contains(&"footprint_response")) {
-            let violation = (law.violation)(&exact);
-            println!("{}: {violation:e}", law.name);
-            assert!(violation <= law.tolerance, "{}: {violation:e}", law.name);
-        }
-    }
-
-    #[test]
-    fn forms_that_break_them_are_found() {
+    fn the_exact_means_keep_every_law_and_others_are_found() {
         let tilted = |points: &Table| {
             points.columns[1].values.iter().map(|s| (1.1 + 0.1 * s) as f32).collect()
         };
-        for law in EFFECT.laws {
-            assert!((law.violation)(&tilted) > law.tolerance, "{}", law.name);
-            assert!((law.violation)(&|_| vec![f32::NAN]) > law.tolerance, "{}", law.name);
-            assert!((law.violation)(&|_| Vec::new()) > law.tolerance, "{}", law.name);
+        for (reference, mean) in
+            [("footprint_response", response as Mean), ("footprint_coverage", coverage)]
+        {
+            let laws = EFFECT.laws.iter().filter(|law| law.references.contains(&reference));
+            assert_laws_bite(laws, &|points| exact(points, mean), &tilted);
         }
     }
 }

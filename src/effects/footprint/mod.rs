@@ -59,7 +59,7 @@ use std::sync::LazyLock;
 
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{Effect, Evaluate, FormText, Functions, arguments};
+use crate::effect::{Effect, FormText, Functions, Scalar, arguments};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/footprint/forms");
 
@@ -78,28 +78,13 @@ pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
     Effect::of_text(include_str!("effect.toml"), functions)
 });
 
-const REFERENCES: &[(&str, Evaluate)] = &[
-    (
-        "footprint_response",
-        Evaluate::Scalar(|point| {
-            let [h, s] = arguments(point)?;
-            response(h, s)
-        }),
-    ),
-    (
-        "footprint_coverage",
-        Evaluate::Scalar(|point| {
-            let [h, s] = arguments(point)?;
-            coverage(h, s)
-        }),
-    ),
-    (
-        "footprint_end",
-        Evaluate::Scalar(|point| {
-            let [half_extent, half_length, shear, offset, end] = arguments(point)?;
-            response_at_end(ScratchEnd { half_extent, half_length, shear, offset, end })
-        }),
-    ),
+const REFERENCES: &[(&str, Scalar)] = &[
+    ("footprint_response", |point| arguments(point).and_then(|[h, s]| response(h, s))),
+    ("footprint_coverage", |point| arguments(point).and_then(|[h, s]| coverage(h, s))),
+    ("footprint_end", |point| {
+        let [half_extent, half_length, shear, offset, end] = arguments(point)?;
+        response_at_end(ScratchEnd { half_extent, half_length, shear, offset, end })
+    }),
 ];
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::numeric::statistics::sum;
 use crate::table::Table;
 
 use super::end::{ScratchEnd, response_at_end};
-use super::pixels::{Camera, Footprint};
+use super::pixels::{Footprint, of_cameras};
 use super::reference::response;
 
 /// How far past the rim the offsets go, σ: the response is below e⁻²⁰ there, the coverage below e⁻¹⁰.
@@ -50,7 +50,7 @@ pub(super) fn spaced_offsets(
 }
 
 fn camera(pixels: usize, count: u32, seed: u64, phase: f64) -> Table {
-    let footprints = Camera::seeded(seed).take(pixels).map(|f| (f.half_extent, f.area_ratio()));
+    let footprints = of_cameras(seed).take(pixels).map(|f| (f.half_extent, f.area_ratio()));
     infinite(footprints, count, phase, "footprints of cameras, seeded draws")
 }
 
@@ -94,7 +94,7 @@ fn ends(footprints: usize, count: u32, seed: u64) -> Table {
     let mut rows = Vec::new();
     // R2, Roberts' sequence of low discrepancy in the plane, from the seed.
     let start = seed as f64;
-    for f in Camera::seeded(seed).filter(small).take(footprints) {
+    for f in of_cameras(seed).filter(small).take(footprints) {
         let reach = f.half_length.hypot(f.shear) + 2.0;
         let scratches: Vec<ScratchEnd> = (0..count)
             .map(|i| {

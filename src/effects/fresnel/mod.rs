@@ -44,7 +44,7 @@ use std::sync::LazyLock;
 
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{Effect, Evaluate, FormText, Functions, arguments};
+use crate::effect::{Effect, FormText, Functions, Scalar, arguments};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/fresnel/forms");
 
@@ -63,26 +63,14 @@ pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
     Effect::of_text(include_str!("effect.toml"), functions)
 });
 
-const REFERENCES: &[(&str, Evaluate)] = &[
-    (
-        "fresnel_conductor",
-        Evaluate::Scalar(|point| {
-            let [mu, n, k] = arguments(point)?;
-            reference::conductor(mu, n, k).map(reference::Reflectance::mean)
-        }),
-    ),
-    (
-        "fresnel_dielectric",
-        Evaluate::Scalar(|point| {
-            let [mu, eta] = arguments(point)?;
-            reference::dielectric(mu, eta).map(reference::Reflectance::mean)
-        }),
-    ),
-    (
-        "schlick_weight",
-        Evaluate::Scalar(|point| {
-            let [mu] = arguments(point)?;
-            reference::schlick_weight(mu)
-        }),
-    ),
+const REFERENCES: &[(&str, Scalar)] = &[
+    ("fresnel_conductor", |point| {
+        let [mu, n, k] = arguments(point)?;
+        reference::conductor(mu, n, k).map(reference::Reflectance::mean)
+    }),
+    ("fresnel_dielectric", |point| {
+        let [mu, eta] = arguments(point)?;
+        reference::dielectric(mu, eta).map(reference::Reflectance::mean)
+    }),
+    ("schlick_weight", |point| arguments(point).and_then(|[mu]| reference::schlick_weight(mu))),
 ];

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::amplitude::depth_factor;
 use super::ensemble::{Base, Model, PUBLISHED, REFERENCE};
 use super::exhibits::{
-    DepthPhase, EnergyStudy, EnsembleStudy, Sampling, energy_ratio, response_errors,
+    DepthPhase, EnergyStudy, EnsembleStudy, Sampling, Seen, energy_ratio, response_errors,
     side_lobe_energy,
 };
 use super::surface::{Coherence, Directions, StraightScratch, mirror_amplitude};
@@ -138,10 +138,10 @@ fn density(_: &Candidates) -> Result<Found, ClaimError> {
 
 fn mutual_interference(_: &Candidates) -> Result<Found, ClaimError> {
     let crossed = [0.5, 2.0, 8.0].map(|n| {
-        let study = EnsembleStudy::of_scratches(n, PI);
+        let study = EnsembleStudy::new(n, PI, Seen::Scratch);
         format!("{:.2} (mean {:.2}) at {n}", study.rms[3], study.mean[3])
     });
-    let parallel = EnsembleStudy::of_scratches(8.0, 2.0_f64.to_radians());
+    let parallel = EnsembleStudy::new(8.0, 2.0_f64.to_radians(), Seen::Scratch);
     let found = format!(
         "relative RMS at a point, in the lobes of scratches of any orientation: {} per coherence area; {:.2} (mean \
          {:.2}) at 8 within one degree of each other",

@@ -50,8 +50,7 @@ mod surface;
 
 pub use amplitude::{along_factor, depth_factor, sinc_pi};
 pub use surface::{
-    Coherence, Directions, StraightScratch, coherent_amplitude, mirror_amplitude,
-    superposed_svbrdf, svbrdf,
+    Coherence, Directions, StraightScratch, coherent_amplitude, mirror_amplitude, svbrdf,
 };
 
 use std::sync::LazyLock;

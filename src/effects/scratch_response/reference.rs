@@ -2,7 +2,7 @@
 
 use super::EFFECT;
 use super::surface::{Coherence, Directions, StraightScratch, coherent_amplitude, svbrdf};
-use crate::effect::{DomainError, Evaluate};
+use crate::effect::{DomainError, Scalar};
 
 const POSITIVE: &str = "finite, > 0";
 const NOT_NEGATIVE: &str = "finite, >= 0";
@@ -10,40 +10,28 @@ const END: &str = "begin <= end; infinite for no end";
 const COSINES: &str = "[0, 2]";
 
 /// What each reference returns.
-pub(super) const REFERENCES: &[(&str, Evaluate)] = &[
+pub(super) const REFERENCES: &[(&str, Scalar)] = &[
     // |𝒮|²/(πσ²λ²) of one finite scratch.
-    (
-        SCRATCH,
-        Evaluate::Scalar(|arguments| {
-            let (scratch, light, directions) = one(SCRATCH, arguments)?;
-            Ok(scratch.amplitude(light, directions).norm_sqr())
-        }),
-    ),
+    (SCRATCH, |arguments| {
+        let (scratch, light, directions) = one(SCRATCH, arguments)?;
+        Ok(scratch.amplitude(light, directions).norm_sqr())
+    }),
     // |ℬ − 𝒮|²/(πσ²λ²) of one finite scratch in a smooth mirror.
-    (
-        SCRATCHED_MIRROR,
-        Evaluate::Scalar(|arguments| {
-            let (scratch, light, directions) = one(SCRATCHED_MIRROR, arguments)?;
-            Ok(svbrdf(&[scratch], light, directions))
-        }),
-    ),
+    (SCRATCHED_MIRROR, |arguments| {
+        let (scratch, light, directions) = one(SCRATCHED_MIRROR, arguments)?;
+        Ok(svbrdf(&[scratch], light, directions))
+    }),
     // |𝒮₁ + 𝒮₂|²/(πσ²λ²) of two infinite scratches.
-    (
-        PAIR,
-        Evaluate::Scalar(|arguments| {
-            let (scratches, light, directions) = pair(arguments)?;
-            Ok(coherent_amplitude(&scratches, light, directions).norm_sqr())
-        }),
-    ),
+    (PAIR, |arguments| {
+        let (scratches, light, directions) = pair(arguments)?;
+        Ok(coherent_amplitude(&scratches, light, directions).norm_sqr())
+    }),
     // ρ_c of one finite scratch.
-    (
-        DENSITY,
-        Evaluate::Scalar(|arguments| {
-            let [width_um, sigma_um, offset_um, begin_um, end_um] = values(DENSITY, arguments)?;
-            let scratch = along_first_axis(width_um, 0.0, offset_um, [begin_um, end_um]);
-            Ok(scratch.density(sigma_um))
-        }),
-    ),
+    (DENSITY, |arguments| {
+        let [width_um, sigma_um, offset_um, begin_um, end_um] = values(DENSITY, arguments)?;
+        let scratch = along_first_axis(width_um, 0.0, offset_um, [begin_um, end_um]);
+        Ok(scratch.density(sigma_um))
+    }),
 ];
 
 const SCRATCH: &str = "scratch_reflectance";

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::effect::claim::check;
-use crate::effects::{registered, written};
+use crate::effects::{found, registered};
 use crate::numeric::statistics::relative_l2;
 
 #[test]
@@ -137,7 +136,9 @@ fn superposition_without_interference_exceeds_one_by_the_shares() {
             let xi = [0.5 * unit * f64::from(i), unit * 0.5 * (f64::from(j) + 0.5)];
             let directions = Directions { xi, mu_sum: 2.0 };
             full += 0.25 * unit * unit * svbrdf(&[scratch], light, directions);
-            added += 0.25 * unit * unit * superposed_svbrdf(&[scratch], light, directions, 1.0);
+            let lobe = scratch.amplitude(light, directions).norm_sqr();
+            let mirror = mirror_amplitude(light, directions).powi(2);
+            added += 0.25 * unit * unit * (mirror + lobe);
         }
     }
     let share = scratch.reflected_share(light, 2.0);
@@ -148,9 +149,7 @@ fn superposition_without_interference_exceeds_one_by_the_shares() {
 
 #[test]
 fn findings_agree_with_the_derivations() {
-    let findings = check(EFFECT.claims, &written(&EFFECT));
-    let found: Vec<&str> = findings.iter().map(|f| f.found.as_str()).collect();
-    println!("{found:#?}");
+    let found = found(&EFFECT);
     // One scratch of W = σ/20: 1 − √(2/π)/20 + |𝒟|²/(20√π), |𝒟|² = 4 and 0.
     assert!(found[3].contains("1.073 for D = lambda/4, 0.960 for D = lambda/2"), "{}", found[3]);
     assert!(found[4].contains("6.000 um by eq. 17, 3.000 um by the light"), "{}", found[4]);

@@ -30,7 +30,7 @@ use std::sync::LazyLock;
 
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{Effect, Evaluate, FormText, Functions};
+use crate::effect::{Effect, FormText, Functions};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/sine_integral/forms");
 
@@ -44,7 +44,7 @@ pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
             texts.extend([64, 256, 1024].map(lookup::text));
             texts
         },
-        references: &[("sine_integral", Evaluate::Scalar(value))],
+        references: &[("sine_integral", value)],
         regions: hard_cases::REGIONS,
         hard_cases: hard_cases::HARD_CASES,
         laws: laws::LAWS,

@@ -2,9 +2,8 @@
 //! against the laws. The gates hold the fitted constants; this holds what is written.
 
 use super::EFFECT;
-use crate::effect::claim::check;
 use crate::effect::{Candidate, Region};
-use crate::effects::written;
+use crate::effects::{found, written};
 
 /// Largest error in f32 over each region, and where.
 fn errors(candidate: &Candidate) -> Vec<(f64, f64)> {
@@ -69,9 +68,7 @@ fn forms_are_finite_at_the_ends() {
 
 #[test]
 fn findings_agree_with_the_derivations() {
-    let findings = check(EFFECT.claims, &written(&EFFECT));
-    let found: Vec<&str> = findings.iter().map(|f| f.found.as_str()).collect();
-    println!("{found:#?}");
+    let found = found(&EFFECT);
     assert!(found[1].contains("0.05098 at x = ±3.56, RMS 0.02937"), "{}", found[1]);
     assert!(found[2].contains("0.339/x") && found[2].contains("0.0245"), "{}", found[2]);
     assert!(found[3].contains("-18.4 % at n = 1, -30.7 % at n = 5, -33.7 % at n = 100"));

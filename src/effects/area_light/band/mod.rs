@@ -40,17 +40,16 @@ pub(super) use laws::LAWS;
 pub use reference::sinc_squared_band;
 pub(super) use regions::{HARD_CASES, REGIONS};
 
-use crate::effect::Evaluate;
+use crate::effect::Scalar;
 
 /// The band integral, by name.
-pub(super) const REFERENCES: &[(&str, Evaluate)] = &[(
-    "sinc_squared_band",
-    Evaluate::Scalar(|arguments| match *arguments {
+pub(super) const REFERENCES: &[(&str, Scalar)] = &[
+    // A call without its arguments has no value.
+    ("sinc_squared_band", |point| match *point {
         [x0, x1, ..] => Ok(sinc_squared_band(x0, x1)),
-        // A call without its arguments has no value.
         _ => Ok(f64::NAN),
     }),
-)];
+];
 
 /// Eq. 27 with eq. 29: what ships, and what costs and errors are held against.
 const PRINTED: &str = "area_light/band_printed";

@@ -136,11 +136,7 @@ impl Lobe {
         let error = "estimated relative error of the integral across the scratch";
         let promised = self.is_promised(&panels);
         DomainError::unless(promised, error, estimated_error(&panels), "[0, 1e-9]")?;
-        panels.sort_by(|a, b| {
-            (a.piece[0], a.from)
-                .partial_cmp(&(b.piece[0], b.from))
-                .unwrap_or(std::cmp::Ordering::Equal)
-        });
+        panels.sort_by(|a, b| a.piece[0].total_cmp(&b.piece[0]).then(a.from.total_cmp(&b.from)));
         Ok(panels.iter().map(|panel| panel.integral).sum())
     }
 

@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::columns::{sphere_row, table, triangle_row};
-use super::draws::{Draw, limbs, unit};
+use super::draws::{Draw, limbs, sphere_row, table, triangle_row};
+use super::vector::{cross, unit};
 use super::{SPHERE, TRIANGLE};
 use crate::effect::Points;
 use crate::table::Table;
@@ -220,8 +220,7 @@ const TRIANGLES: [fn(&mut Draw) -> Triangle; 18] = [
         // The origin line tangent to the great circle of an edge: a double root.
         let triangle = Triangle::any(draw);
         let [a, b, _] = triangle.vertices;
-        let normal =
-            unit([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]);
+        let normal = unit(cross(a, b));
         let x = draw.sign() * normal[1].hypot(normal[2]) + nudge(draw);
         triangle.with_line_at(x, draw)
     },

@@ -64,7 +64,6 @@
 
 mod across;
 mod claims;
-mod columns;
 mod draws;
 mod errors;
 mod exhibits;
@@ -74,6 +73,7 @@ mod laws;
 mod polygon;
 mod regions;
 mod sphere;
+mod vector;
 
 pub(super) use claims::CLAIMS;
 pub(super) use exhibits::exhibits;
@@ -81,7 +81,7 @@ pub(super) use hard_cases::HARD_CASES;
 pub(super) use laws::LAWS;
 pub(super) use regions::REGIONS;
 
-use crate::effect::{DomainError, Evaluate, arguments};
+use crate::effect::{DomainError, Scalar, arguments};
 
 /// Name of the reference of sphere lights.
 const SPHERE: &str = "sphere_light";
@@ -89,22 +89,16 @@ const SPHERE: &str = "sphere_light";
 const TRIANGLE: &str = "triangle_light";
 
 /// What lights give, by name.
-pub(super) const REFERENCES: &[(&str, Evaluate)] = &[
-    (
-        SPHERE,
-        Evaluate::Scalar(|point| {
-            let [kw, ks, view_x, view_y, x, y, z, radius] = arguments(point)?;
-            sphere_light(kw, ks, [view_x, view_y], [x, y, z], radius)
-        }),
-    ),
-    (
-        TRIANGLE,
-        Evaluate::Scalar(|point| {
-            let [kw, ks, view_x, view_y, rest @ ..]: [f64; 13] = arguments(point)?;
-            let [a, b, c] = [0, 3, 6].map(|at| [rest[at], rest[at + 1], rest[at + 2]]);
-            polygon_light(kw, ks, [view_x, view_y], &[a, b, c])
-        }),
-    ),
+pub(super) const REFERENCES: &[(&str, Scalar)] = &[
+    (SPHERE, |point| {
+        let [kw, ks, view_x, view_y, x, y, z, radius] = arguments(point)?;
+        sphere_light(kw, ks, [view_x, view_y], [x, y, z], radius)
+    }),
+    (TRIANGLE, |point| {
+        let [kw, ks, view_x, view_y, rest @ ..]: [f64; 13] = arguments(point)?;
+        let [a, b, c] = [0, 3, 6].map(|at| [rest[at], rest[at + 1], rest[at + 2]]);
+        polygon_light(kw, ks, [view_x, view_y], &[a, b, c])
+    }),
 ];
 
 /// What a scratch receives from a sphere light of radiance 1; see [the module](self).
@@ -128,7 +122,7 @@ pub fn sphere_light(
     finite("view_x", view[0])?;
     finite("centre", centre[0] + centre[1] + centre[2])?;
     positive("radius", radius)?;
-    let distance = centre[0].hypot(centre[1]).hypot(centre[2]);
+    let distance = vector::length(centre);
     finite("distance", distance)?;
     if distance <= radius {
         lobe.integral(&sphere::hemisphere(view))

@@ -4,8 +4,8 @@
 //! Widths and wavelengths are those of velinov2018's scenes; kσ is 60, 250 or 1000 (a coherence
 //! radius of 5, 22 and 88 µm at 550 nm, a lobe of 1/kσ), and errors are measured for each.
 
-use super::columns::{sphere_row, table, triangle_row};
-use super::draws::{Draw, limbs, unit};
+use super::draws::{Draw, limbs, sphere_row, table, triangle_row};
+use super::vector::unit;
 use super::{SPHERE, TRIANGLE};
 use crate::effect::Points;
 use crate::table::Table;

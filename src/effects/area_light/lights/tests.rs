@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::vector::{cross, length};
 use super::{polygon_light, sphere_light};
 use crate::effects::area_light::band::sinc_squared_band;
 
@@ -39,9 +40,8 @@ fn polygon_projected_solid_angle() {
     let vertices = [[0.5, -0.2, 1.0], [1.5, 0.3, 0.8], [0.4, 0.9, 1.3], [-0.2, 0.5, 1.237]];
     let mut lambert = 0.0;
     for (a, b) in vertices.iter().zip(vertices.iter().cycle().skip(1)) {
-        let cross =
-            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        let length = cross.iter().map(|c| c * c).sum::<f64>().sqrt();
+        let cross = cross(*a, *b);
+        let length = length(cross);
         let dot = a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         lambert += 0.5 * length.atan2(dot) * cross[2] / length;
     }

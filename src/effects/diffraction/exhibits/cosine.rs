@@ -1,8 +1,8 @@
-use super::GREEN_NM;
 use super::grating::disc;
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Cell, Figure, PrintedTable, Section};
-use crate::effect::ClaimError;
+use super::{GREEN_NM, TEXTS};
+use crate::document::plot::Series;
+use crate::document::{Cell, Section};
+use crate::effect::{ClaimError, Exhibit};
 use crate::effects::diffraction::DiffractionError;
 use crate::effects::diffraction::far_field::FarFieldTransform;
 use crate::effects::diffraction::table::{NORMAL, at_wavelength};
@@ -62,41 +62,14 @@ pub(in crate::effects::diffraction) fn fixed_cosine_error()
 }
 
 pub(super) fn exhibit() -> Result<Section, ClaimError> {
-    let mut plot = Plot::new(
-        "Error of w = 2 throughout",
-        PlotAxis::linear("angle of incidence", "°"),
-        PlotAxis::linear("relative error", "1"),
-    );
-    for depth in [20.0, 60.0, 120.0, 150.0] {
+    let curve = |depth: f64| {
         let error = |degrees: f64| (degrees, grating_error(depth, degrees.to_radians()));
-        let points = (0..=85).map(f64::from).map(error);
-        plot = plot.series(Series::line(format!("{depth} nm"), points));
-    }
+        Series::line(format!("{depth} nm"), (0..=85).map(f64::from).map(error))
+    };
     let angles = [0.0_f64, 20.1, 43.4, 60.0, 75.0]
         .map(|degrees| vec![degrees.into(), grating_error(120.0, degrees.to_radians()).into()]);
     let rings = fixed_cosine_error()?;
     let rings = rings.into_iter().map(|r| [r.0, r.1, r.2, r.3].map(Cell::from).to_vec());
-    Ok(Section::new("One table for every angle")
-        .paragraph(
-            "A table is made at w = 2 and scaled by (1 + ω_i·ω_o)²/4, the first order in the height. \
-             The curves are exact: orders of rectangular gratings at 550 nm, whatever the order. A \
-             disc's first and second orders at 550 nm are met at 20.1° and 43.4°.",
-        )
-        .block(Figure::new(
-            "diffraction-fixed-cosine",
-            "Relative error of the power of an order over the angle of incidence, for the eye along \
-             the normal, by depth.",
-            plot,
-        ))
-        .block(PrintedTable::of_rows(
-            "A depth of 120 nm",
-            [("angle of incidence", "°"), ("relative error of every order", "1")],
-            angles,
-        ))
-        .block(PrintedTable::of_rows(
-            "The table of a simulated disc, 120 nm deep, against one with w of its own in every \
-             texel, at 550 nm: relative L2 error over a ring, and relative error of its power",
-            [("|h| from", "1"), ("to", "1"), ("relative L2 error", "1"), ("power", "1")],
-            rings,
-        )))
+    let exhibit = Exhibit::of(TEXTS, "cosine", &[]).figure([20.0, 60.0, 120.0, 150.0].map(curve));
+    Ok(exhibit.table(angles).table(rings).section())
 }

@@ -1,8 +1,8 @@
-use super::GREEN_NM;
 use super::grating::disc;
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Cell, Figure, PrintedTable, Section};
-use crate::effect::ClaimError;
+use super::{GREEN_NM, TEXTS};
+use crate::document::plot::Series;
+use crate::document::{Cell, Section};
+use crate::effect::{ClaimError, Exhibit};
 use crate::effects::diffraction::DiffractionError;
 use crate::effects::diffraction::far_field::FarFieldTransform;
 use crate::effects::diffraction::table::{NORMAL, at_wavelength};
@@ -46,33 +46,17 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
     let edge = |u: f64| 1.0 / (1.0 - u * u).sqrt();
     let missing = |(u, printed, whole): (f64, f64, f64)| (u, whole / printed - 1.0);
     let shown: Vec<f64> = widths.iter().copied().filter(|u| *u >= 0.2).collect();
-    let plot = Plot::new(
-        "Light that is left out without 1/cos θ_i",
-        PlotAxis::linear("half-width in h", "1"),
-        PlotAxis::log("relative to what is left", "1"),
-    )
-    .series(Series::dashed("at the edge", widths.iter().map(|&u| (u, edge(u) - 1.0))))
-    .series(Series::line("even table", widths.iter().map(|&u| (u, mean_over_disc(u) - 1.0))))
-    .series(Series::line("disc", disc_furnace(&shown)?.into_iter().map(missing)).strong());
+    let at_edge = widths.iter().map(|&u| (u, edge(u) - 1.0));
+    let even = widths.iter().map(|&u| (u, mean_over_disc(u) - 1.0));
+    let of_disc = disc_furnace(&shown)?.into_iter().map(missing);
     let rows = disc_furnace(&[0.25, 0.5, 0.75, 0.9, 0.98])?.into_iter().map(missing);
     let rows = rows.map(|(u, of_disc)| {
         [u, edge(u) - 1.0, mean_over_disc(u) - 1.0, of_disc].map(Cell::from).to_vec()
     });
-    Ok(Section::new("The solid angle of a texel")
-        .paragraph(
-            "With ω_o = n, h is ω_i projected onto the surface, and a texel ΔA of the table stands \
-             for the solid angle ΔA/cos θ_i of light. toisoul2017 eq. 6, 7 and 9–11 sum over texels \
-             without it.",
-        )
-        .block(Figure::new(
-            "diffraction-jacobian",
-            "Over the half-width of the table: in its outermost texels, for a table of one value, and \
-             for a simulated disc under a white sky away from the mirror.",
-            plot,
-        ))
-        .block(PrintedTable::of_rows(
-            "Light that is left out, relative to what is left",
-            [("half-width", "1"), ("at the edge", "1"), ("even table", "1"), ("disc", "1")],
-            rows,
-        )))
+    let curves = [
+        Series::dashed("at the edge", at_edge),
+        Series::line("even table", even),
+        Series::line("disc", of_disc).strong(),
+    ];
+    Ok(Exhibit::of(TEXTS, "jacobian", &[]).figure(curves).table(rows).section())
 }

@@ -18,6 +18,9 @@ use super::DiffractionError;
 use crate::document::Section;
 use crate::effect::{Candidates, ClaimError};
 
+/// What is said of the exhibits.
+const TEXTS: &str = include_str!("../exhibits.toml");
+
 /// Wavelength of what is shown at one, nm.
 pub(super) const GREEN_NM: f64 = 550.0;
 

@@ -2,9 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::grid;
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Cell, Figure, PrintedTable, Section};
+use super::{TEXTS, grid};
+use crate::document::plot::Series;
+use crate::document::{Cell, Section};
+use crate::effect::Exhibit;
 use crate::effects::scratch_response::amplitude::{depth_factor, sinc_pi};
 
 /// Wavelength of fig. 3, µm.
@@ -42,33 +43,17 @@ pub(super) fn exhibit() -> Section {
         let value = |angle: f64| lobe(WIDTH_UM, DEPTH_UM, angle, mu_sum(angle)) / peak;
         angles.iter().map(|&angle| (angle.to_degrees(), value(angle).max(1e-5))).collect()
     };
-    let plot = Plot::new(
-        "Radiance of one scratch (velinov2018 fig. 3)",
-        PlotAxis::linear("exitance", "degrees"),
-        PlotAxis::log("radiance over that at 0", "1"),
-    )
-    .series(Series::line("small angles, exp(i 4 pi D/lambda)", curve(|_| 2.0)).strong())
-    .series(Series::dashed(
-        "at its angles, exp(i 2 pi (g + g_i) D/lambda)",
-        curve(|angle| 1.0 + angle.cos()),
-    ));
-    let caption = format!(
-        "Vertical light of 700 nm, plane across the scratch, over the value in the mirror direction; W = \
-         {WIDTH_UM} um, D = {DEPTH_UM} um, since the caption states neither. Drawn from 1e-5 up."
-    );
+    let curves = [
+        Series::line("small angles, exp(i 4 pi D/lambda)", curve(|_| 2.0)).strong(),
+        Series::dashed(
+            "at its angles, exp(i 2 pi (g + g_i) D/lambda)",
+            curve(|angle| 1.0 + angle.cos()),
+        ),
+    ];
     let rows = [0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3, 2.0, 3.0, 6.0].map(|depth| {
         let (small, angular) = side_lobe_energy(WIDTH_UM, depth);
         [depth, small, angular, small / angular].map(Cell::from).to_vec()
     });
-    Section::new("Depth phase at small angles: fig. 3")
-        .paragraph(
-            "Both curves share the zeros of the sinc; the depth phase multiplies its lobes. At small angles every \
-             lobe has one factor, at its angles each lobe has its own, so colours move with the angle.",
-        )
-        .block(Figure::new("scratch-figure-three", caption, plot))
-        .block(PrintedTable::of_rows(
-            "Energy of the side lobes of the same scratch, by its depth",
-            [("D", "um"), ("at small angles", "1"), ("at its angles", "1"), ("ratio", "1")],
-            rows,
-        ))
+    let values = [("WIDTH_UM", WIDTH_UM.to_string()), ("DEPTH_UM", DEPTH_UM.to_string())];
+    Exhibit::of(TEXTS, "figure_three", &values).figure(curves).table(rows).section()
 }

@@ -9,11 +9,14 @@ mod depth_phase;
 pub(super) use depth_phase::{DepthPhase, Sampling};
 pub(super) use ends::{energy_ratio, response_errors};
 pub(super) use energy::EnergyStudy;
-pub(super) use ensembles::EnsembleStudy;
+pub(super) use ensembles::{EnsembleStudy, Seen};
 pub(super) use figure_three::side_lobe_energy;
 
 use crate::document::Section;
 use crate::effect::{Candidates, ClaimError};
+
+/// What is said of the exhibits.
+const TEXTS: &str = include_str!("../exhibits.toml");
 
 /// The exhibits, in the order of the page.
 pub(super) fn exhibits(candidates: &Candidates) -> Result<Vec<Section>, ClaimError> {
