@@ -126,9 +126,9 @@ impl Settings {
         })
     }
 
-    /// Whether `key` was given.
-    pub fn is_given(&self, key: &str) -> bool {
-        self.given.contains_key(key)
+    /// The value of `key` as text, if it was given.
+    pub fn given(&self, key: &str) -> Option<&str> {
+        self.given.get(key).map(String::as_str)
     }
 
     /// The value of `key` as text, the default where it was not given.
@@ -197,7 +197,7 @@ mod tests {
         let settings = Settings::parse(PARAMETERS, &[" size = 5"]).expect("settings");
         assert_eq!(settings.count("size", 1, 9), Ok(5));
         assert_eq!(settings.text("window"), Ok("hann"));
-        assert!(settings.is_given("size") && !settings.is_given("window"));
+        assert!(settings.given("size").is_some() && settings.given("window").is_none());
         assert_eq!(Settings::new(PARAMETERS).number("size", 0.0, 9.0), Ok(3.0));
     }
 

@@ -65,7 +65,6 @@ mod regions;
 mod resample;
 mod simulate;
 mod simulation;
-mod steps;
 mod surfaces;
 mod table;
 
@@ -81,7 +80,6 @@ pub use preparation::{
 pub use reference::{MOST_ORDER, MOST_PHASE, rectangular_order_power, sinusoid_order_power};
 pub use resample::{Cells, gathered};
 pub use simulate::{settings, simulated_heights, simulated_table};
-pub use steps::{Step, StepEffect, step_effects};
 pub use surfaces::{
     CompactDisc, Grating, HolographicPaper, Patch, PixelLattice, Profile, compact_disc, grating,
     holographic_paper, pixel_lattice,

@@ -87,11 +87,9 @@ pub(super) fn preparation(settings: &Settings) -> Result<Preparation, SettingsEr
 /// Extent and channels of the table.
 pub(super) fn shape(settings: &Settings) -> Result<TableShape, DiffractionError> {
     let size = settings.count("size", 1, 2048)?;
-    let extent = number_or(settings, "extent", 1e-3, 2.0, || {
-        let from_file = settings.is_given("heightmap") || settings.is_given("pattern");
-        let screen = settings.text("surface").is_ok_and(is_screen);
-        if screen && !from_file { 0.15 } else { 1.0 }
-    })?;
+    let from_file = settings.given("heightmap").or(settings.given("pattern")).is_some();
+    let screen = !from_file && settings.text("surface").is_ok_and(is_screen);
+    let extent = number_or(settings, "extent", 1e-3, 2.0, if screen { 0.15 } else { 1.0 })?;
     let rgb = settings.choice("channels", &[("rgb", true), ("spectral", false)])?;
     let channels = if rgb {
         Channels::Rgb(IlluminantChoice::named(settings.text("illuminant")?)?)
@@ -135,34 +133,26 @@ fn number_or(
     key: &str,
     lowest: f64,
     highest: f64,
-    default: impl FnOnce() -> f64,
+    default: f64,
 ) -> Result<f64, SettingsError> {
-    if settings.is_given(key) { settings.number(key, lowest, highest) } else { Ok(default()) }
+    settings.given(key).map_or(Ok(default), |_| settings.number(key, lowest, highest))
 }
 
 fn pattern(settings: &Settings) -> Result<Option<(Pattern, PatternPlacing)>, DiffractionError> {
-    if !settings.is_given("pattern") {
-        return Ok(None);
-    }
-    for other in ["surface", "heightmap"] {
-        if settings.is_given(other) {
-            let fault =
-                format!(": a table is made from a pattern or from a {other}, not from both");
-            return Err(SettingsError::new("pattern", fault).into());
-        }
-    }
+    let Some(file) = settings.given("pattern") else { return Ok(None) };
+    alone(settings, "pattern", "surface")?;
+    alone(settings, "pattern", "heightmap")?;
     let encodings = [("srgb", Encoding::Srgb), ("linear", Encoding::Linear)];
     let encoding = settings.choice("pattern_encoding", &encodings)?;
-    let channel = settings.is_given("pattern_channel").then(|| settings.text("pattern_channel"));
-    let pattern = Pattern::read(settings.text("pattern")?, channel.transpose()?, encoding)?;
-    let centre = if settings.is_given("pattern_centre_px") {
-        let parts = settings.text("pattern_centre_px")?.split_once(',');
-        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
-        parts
-            .and_then(|(x, y)| Some([number(x)?, number(y)?]))
-            .ok_or_else(|| settings.refused("pattern_centre_px", "x,y"))?
-    } else {
-        [0.5 * pattern.width as f64, 0.5 * pattern.height as f64]
+    let pattern = Pattern::read(file, settings.given("pattern_channel"), encoding)?;
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let point = |text: &str| {
+        let (x, y) = text.split_once(',')?;
+        Some([number(x)?, number(y)?])
+    };
+    let centre = match settings.given("pattern_centre_px").map(point) {
+        Some(given) => given.ok_or_else(|| settings.refused("pattern_centre_px", "x,y"))?,
+        None => [0.5 * pattern.width as f64, 0.5 * pattern.height as f64],
     };
     let placing = PatternPlacing {
         wavelength_nm: settings.number("wavelength_nm", 1.0, 1e5)?,
@@ -174,14 +164,15 @@ fn pattern(settings: &Settings) -> Result<Option<(Pattern, PatternPlacing)>, Dif
 }
 
 fn heights(settings: &Settings) -> Result<HeightMap, DiffractionError> {
-    if settings.is_given("heightmap") {
-        if settings.is_given("surface") {
-            let fault = ": a table is made from a heightmap or from a surface, not from both";
-            return Err(SettingsError::new("heightmap", fault).into());
-        }
-        return Ok(HeightMap::read(settings.text("heightmap")?)?);
-    }
-    Ok(simulated_heights(settings)?)
+    let Some(file) = settings.given("heightmap") else { return Ok(simulated_heights(settings)?) };
+    alone(settings, "heightmap", "surface")?;
+    Ok(HeightMap::read(file)?)
+}
+
+/// Refuses `other` beside `key`.
+fn alone(settings: &Settings, key: &str, other: &str) -> Result<(), SettingsError> {
+    let fault = format!(": a table is made from a {key} or from a {other}, not from both");
+    settings.given(other).map_or(Ok(()), |_| Err(SettingsError::new(key, fault)))
 }
 
 /// Surfaces that can be simulated.
@@ -202,13 +193,13 @@ pub fn simulated_heights(settings: &Settings) -> Result<HeightMap, SettingsError
     let screen = is_screen(surface);
     let patch = Patch {
         samples: settings.count("samples", 16, 4096)?,
-        side_um: number_or(settings, "side_um", 1e-2, 1e6, || if screen { 409.6 } else { 51.2 })?,
+        side_um: number_or(settings, "side_um", 1e-2, 1e6, if screen { 409.6 } else { 51.2 })?,
         line: false,
     };
-    let length = |key: &str, default: f64| number_or(settings, key, 1e-3, 1e6, || default);
-    let height = |key: &str, default: f64| number_or(settings, key, 0.0, 1e6, || default);
+    let length = |key: &str, default: f64| number_or(settings, key, 1e-3, 1e6, default);
+    let height = |key: &str, default: f64| number_or(settings, key, 0.0, 1e6, default);
     let angle = |key: &str, default: f64| {
-        number_or(settings, key, -360.0, 360.0, || default).map(f64::to_radians)
+        number_or(settings, key, -360.0, 360.0, default).map(f64::to_radians)
     };
     let seed = settings.count("seed", 0, usize::MAX)? as u64;
     let of_grating = |profile| -> Result<HeightMap, SettingsError> {
@@ -221,7 +212,7 @@ pub fn simulated_heights(settings: &Settings) -> Result<HeightMap, SettingsError
             matrix_share: settings.number("matrix_share", 0.0, 0.9)?,
             depth_nm: height("depth_nm", 100.0)?,
             angle: angle("angle_deg", turn)?,
-            skew: number_or(settings, "skew_deg", -60.0, 60.0, || lean)?.to_radians(),
+            skew: number_or(settings, "skew_deg", -60.0, 60.0, lean)?.to_radians(),
         };
         Ok(pixel_lattice(lattice, patch))
     };

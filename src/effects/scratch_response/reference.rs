@@ -29,7 +29,8 @@ pub(super) const REFERENCES: &[(&str, Scalar)] = &[
     // ρ_c of one finite scratch.
     (DENSITY, |arguments| {
         let [width_um, sigma_um, offset_um, begin_um, end_um] = values(DENSITY, arguments)?;
-        let scratch = along_first_axis(width_um, 0.0, offset_um, [begin_um, end_um]);
+        let scratch =
+            StraightScratch::along_first_axis(width_um, 0.0, offset_um, [begin_um, end_um]);
         Ok(scratch.density(sigma_um))
     }),
 ];
@@ -39,24 +40,6 @@ const SCRATCHED_MIRROR: &str = "scratched_mirror_reflectance";
 const PAIR: &str = "scratch_pair_reflectance";
 const DENSITY: &str = "scratch_density";
 
-/// A scratch along the first axis, in whose frame ξ is then given.
-fn along_first_axis(
-    width_um: f64,
-    depth_um: f64,
-    offset_um: f64,
-    ends: [f64; 2],
-) -> StraightScratch {
-    let [begin_um, end_um] = ends;
-    StraightScratch {
-        position_um: [0.0, offset_um],
-        direction_rad: 0.0,
-        begin_um,
-        end_um,
-        width_um,
-        depth_um,
-    }
-}
-
 fn one(
     reference: &str,
     arguments: &[f64],
@@ -64,7 +47,7 @@ fn one(
     let [width_um, depth_um, wavelength_um, sigma_um, along, across, offset_um, begin, end, mu_sum] =
         values(reference, arguments)?;
     Ok((
-        along_first_axis(width_um, depth_um, offset_um, [begin, end]),
+        StraightScratch::along_first_axis(width_um, depth_um, offset_um, [begin, end]),
         Coherence { wavelength_um, sigma_um },
         Directions { xi: [along, across], mu_sum },
     ))
@@ -85,7 +68,7 @@ fn pair(arguments: &[f64]) -> Result<([StraightScratch; 2], Coherence, Direction
         offset,
         turn,
     ] = values(PAIR, arguments)?;
-    let first = along_first_axis(width_um, depth_um, offset_um, [0.0; 2]).unbounded();
+    let first = StraightScratch::infinite(offset_um, width_um, depth_um);
     let (sin, cos) = core_math::sincos(turn);
     let second = StraightScratch {
         position_um: [-offset * sin, offset * cos],

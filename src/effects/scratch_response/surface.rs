@@ -67,16 +67,20 @@ impl Directions {
 }
 
 impl StraightScratch {
-    /// A scratch without ends along the first axis of the surface, at `offset_um` from the shaded point.
+    /// A scratch along the first axis of the surface, at `offset_um` from the shaded point.
+    pub(super) fn along_first_axis(
+        width_um: f64,
+        depth_um: f64,
+        offset_um: f64,
+        [begin_um, end_um]: [f64; 2],
+    ) -> Self {
+        let position_um = [0.0, offset_um];
+        Self { position_um, direction_rad: 0.0, begin_um, end_um, width_um, depth_um }
+    }
+
+    /// The same without ends.
     pub(super) fn infinite(offset_um: f64, width_um: f64, depth_um: f64) -> Self {
-        Self {
-            position_um: [0.0, offset_um],
-            direction_rad: 0.0,
-            begin_um: f64::NEG_INFINITY,
-            end_um: f64::INFINITY,
-            width_um,
-            depth_um,
-        }
+        Self::along_first_axis(width_um, depth_um, offset_um, [0.0; 2]).unbounded()
     }
 
     /// The scratch without ends, eq. 8.

@@ -59,20 +59,19 @@ fn nudge(draw: &mut Draw) -> f64 {
     draw.sign() * draw.one_of(&sizes)
 }
 
+/// A sphere with a limb on the origin line, but for an offset.
+fn at_limb(draw: &mut Draw, offset: fn(&mut Draw) -> f64) -> Sphere {
+    let sphere = Sphere::any(draw);
+    let limb = draw.one_of(&limbs(sphere.axis, sphere.half_angle));
+    let x = (limb + offset(draw)).clamp(-1.0, 1.0);
+    sphere.with_line_at(x, draw)
+}
+
 const SPHERES: [fn(&mut Draw) -> Sphere; 15] = [
     Sphere::any,
-    |draw| {
-        // A limb tangent to the origin line: a double root.
-        let sphere = Sphere::any(draw);
-        let limb = draw.one_of(&limbs(sphere.axis, sphere.half_angle));
-        sphere.with_line_at(limb, draw)
-    },
-    |draw| {
-        let sphere = Sphere::any(draw);
-        let limb = draw.one_of(&limbs(sphere.axis, sphere.half_angle));
-        let nudge = nudge(draw);
-        sphere.with_line_at((limb + nudge).clamp(-1.0, 1.0), draw)
-    },
+    // A limb tangent to the origin line, a double root, and next to it.
+    |draw| at_limb(draw, |_| 0.0),
+    |draw| at_limb(draw, nudge),
     |draw| {
         let along =
             [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];

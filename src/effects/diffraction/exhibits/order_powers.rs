@@ -1,5 +1,4 @@
-use super::grating::line;
-use super::{GREEN_NM, TEXTS};
+use super::{GREEN_NM, TEXTS, line};
 use crate::document::Section;
 use crate::document::plot::Series;
 use crate::effect::{ClaimError, DomainError, Exhibit};

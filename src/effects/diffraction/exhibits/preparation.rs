@@ -1,12 +1,11 @@
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use super::grating::level;
-use super::{GREEN_NM, TEXTS};
+use super::{GREEN_NM, TEXTS, level};
 use crate::document::Section;
 use crate::effect::{ClaimError, Exhibit};
 use crate::effects::diffraction::preparation::{Detrend, Missing, Preparation, USUAL, Window};
-use crate::effects::diffraction::steps::{Step, changes};
+use crate::effects::diffraction::simulation::{Step, changes};
 use crate::effects::diffraction::surfaces::{Grating, Patch, Profile, grating};
 use crate::effects::diffraction::table::NORMAL;
 use crate::measured::height_map::HeightMap;

@@ -1,5 +1,4 @@
-use super::grating::{PAPER, disc, level};
-use super::{GREEN_NM, TEXTS};
+use super::{GREEN_NM, PAPER, TEXTS, disc, level};
 use crate::document::plot::Series;
 use crate::document::{Cell, Section};
 use crate::effect::{ClaimError, Exhibit};

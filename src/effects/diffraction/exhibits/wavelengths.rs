@@ -1,5 +1,4 @@
-use super::grating::line;
-use super::{GREEN_NM, TEXTS};
+use super::{GREEN_NM, TEXTS, line};
 use crate::document::plot::Series;
 use crate::document::{Cell, Section};
 use crate::effect::{ClaimError, Exhibit};
