@@ -8,7 +8,7 @@ use crate::effect::simulator::Simulator;
 use crate::effect::{Effect, Family, FormEntry, FormLibrary, FormTextError, Reference};
 
 /// The built-in effects. To add one: its folder, and a line here.
-pub const EFFECTS: &[&Effect] = &[
+pub static EFFECTS: [&LazyLock<Effect>; 6] = [
     &crate::effects::sine_integral::EFFECT,
     &crate::effects::fresnel::EFFECT,
     &crate::effects::scratch_response::EFFECT,
@@ -47,7 +47,8 @@ impl Registry {
     /// If one of their texts is at fault, which a test rules out.
     pub fn builtin() -> &'static Self {
         static BUILTIN: LazyLock<Registry> = LazyLock::new(|| {
-            Registry::new(EFFECTS.to_vec()).unwrap_or_else(|error| panic!("built in: {error}"))
+            let effects = EFFECTS.iter().map(|effect| &***effect).collect();
+            Registry::new(effects).unwrap_or_else(|error| panic!("built in: {error}"))
         });
         &BUILTIN
     }

@@ -105,7 +105,7 @@ fn the_power_of_a_table_is_what_it_covers() {
     for channel in power(&table.grid) {
         assert!((channel - 1.0).abs() < 1e-6, "{channel}");
     }
-    assert!(table.inside.iter().all(|share| (share - 1.0).abs() < 1e-12));
+    assert!(table.shares.iter().all(|share| (share.inside - 1.0).abs() < 1e-12));
 }
 
 #[test]
@@ -235,7 +235,10 @@ fn hard_surfaces_have_finite_tables() {
                 let surface = prepared(map, preparation).expect("a surface");
                 let table = of_surface(&surface, &rgb(16, 1.0), 1, 2.0, &spectra());
                 let table = table.expect("a table");
-                assert!(table.total.iter().all(|t| (t - 1.0).abs() < 1e-12), "{map:?}");
+                assert!(
+                    table.shares.iter().all(|share| (share.total - 1.0).abs() < 1e-12),
+                    "{map:?}"
+                );
                 fundamental(&surface).expect("a transform");
             }
         }

@@ -1,7 +1,7 @@
 //! What a plot shows, as data; a report draws it.
 
 use super::thin;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// A plot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -69,13 +69,15 @@ impl Plot {
 }
 
 /// An axis.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PlotAxis {
     /// Quantity.
     pub label: String,
     /// Unit, `1` for a pure number.
     pub unit: String,
     /// How values are spaced.
+    #[serde(default)]
     pub scale: Scale,
     /// First and last value; absent means as the data asks. One that cannot be drawn (reversed,
     /// not finite, not positive on a logarithmic axis) is ignored and the caption says so.
@@ -118,10 +120,11 @@ impl PlotAxis {
 }
 
 /// How the values of an axis are spaced.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Default, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scale {
     /// Evenly.
+    #[default]
     Linear,
     /// By ratio.
     Log,

@@ -45,13 +45,13 @@ impl PrintedTable {
     }
 
     /// A table of words and numbers: title and unit per column, an empty unit for words.
-    pub fn of_rows<T: Into<String>>(
+    pub fn of_rows<T: Into<String>, U: Into<String>>(
         caption: impl Into<Inline>,
-        columns: impl IntoIterator<Item = (T, &'static str)>,
+        columns: impl IntoIterator<Item = (T, U)>,
         rows: impl IntoIterator<Item = Vec<Cell>>,
     ) -> Self {
-        let columns = columns.into_iter().map(|(title, unit)| match unit {
-            "" => PrintedColumn::text(title),
+        let columns = columns.into_iter().map(|(title, unit)| match unit.into() {
+            unit if unit.is_empty() => PrintedColumn::text(title),
             unit => PrintedColumn::number(title, unit),
         });
         Self::new(caption, columns.collect()).with_rows(rows)

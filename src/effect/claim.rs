@@ -1,6 +1,6 @@
 //! Claims: what a paper prints, and the check that gives the number of this run.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{CandidateError, DomainError};
 use crate::form::FormError;
@@ -9,9 +9,13 @@ use crate::measured::MeasuredError;
 /// The command that shows what a claim of an effect comes to, where there is no narrower one.
 pub const REPORT: &str = "striae report";
 
+/// What is found of a claim.
+pub type Check<E> = fn(&E) -> Result<Found, ClaimError>;
+
 /// What a paper prints, and how it is checked against evidence `E` (the candidates of an effect, a
 /// picture of a scene).
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, bound = "")]
 pub struct Claim<E> {
     /// Short name, by which a scene names the claims it checks.
     pub name: &'static str,
@@ -20,9 +24,20 @@ pub struct Claim<E> {
     /// As printed.
     pub printed: &'static str,
     /// The command that shows it.
+    #[serde(default = "report")]
     pub command: &'static str,
     /// What is found in this run.
-    pub check: fn(&E) -> Result<Found, ClaimError>,
+    #[serde(skip, default = "not_checked")]
+    pub check: Check<E>,
+}
+
+fn report() -> &'static str {
+    REPORT
+}
+
+/// Of a claim whose text alone is known.
+fn not_checked<E>() -> Check<E> {
+    |_| Err(ClaimError::new("there is no check"))
 }
 
 impl<E> Clone for Claim<E> {

@@ -168,16 +168,14 @@ impl FormLibrary {
             return fails(FormTextFault::Taken { name, by: other.path.clone() });
         }
         let mut references = effects.iter().flat_map(|effect| effect.references);
-        if let Some(reference) = &form.approximates
-            && !references.any(|known| known.name == reference)
-        {
-            return fails(FormTextFault::UnknownReference(reference.clone()));
+        let reference =
+            form.approximates.iter().find(|name| !references.any(|of| of.name == *name));
+        if let Some(name) = reference {
+            return fails(FormTextFault::UnknownReference(name.clone()));
         }
         let mut families = effects.iter().flat_map(|effect| effect.families);
-        if let Some(family) = &form.over
-            && !families.any(|known| known.name == family)
-        {
-            return fails(FormTextFault::UnknownFamily(family.clone()));
+        if let Some(name) = form.over.iter().find(|name| !families.any(|of| of.name == *name)) {
+            return fails(FormTextFault::UnknownFamily(name.clone()));
         }
         let mut used = Vec::new();
         for text in &form.uses {

@@ -2,23 +2,30 @@
 
 pub mod candidate;
 pub mod claim;
+mod exhibit;
 mod form_library;
 mod form_text;
 pub mod points;
 pub mod simulator;
+mod text;
 pub mod values;
+
+use serde::Deserialize;
 
 use crate::document::Section;
 use crate::table::Table;
 pub use candidate::{Candidate, CandidateError, Candidates, ConstantsOf};
 pub use claim::{Claim, ClaimError, Finding, Found};
+pub(crate) use exhibit::Exhibit;
 pub use form_library::{FormEntry, FormLibrary};
 pub use form_text::{FormText, FormTextError, FormTextFault, TextPlace};
 use simulator::Simulator;
+pub(crate) use text::{Functions, Points, Scalar};
 pub use values::{NoValue, ReferenceValues};
 
 /// A quantity a reference takes or returns.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Quantity {
     /// Name, as in the columns of `striae eval`.
     pub name: &'static str,
@@ -38,6 +45,21 @@ pub struct DomainError {
     pub expected: &'static str,
     /// The value given.
     pub got: f64,
+}
+
+impl DomainError {
+    /// `got` if it is `inside` its domain, `expected` in words.
+    ///
+    /// # Errors
+    /// [`DomainError`] if it is not.
+    pub fn unless(
+        inside: bool,
+        quantity: &'static str,
+        got: f64,
+        expected: &'static str,
+    ) -> Result<f64, Self> {
+        if inside { Ok(got) } else { Err(Self { quantity, expected, got }) }
+    }
 }
 
 /// What a reference returns at a point, and how.
@@ -63,13 +85,15 @@ pub struct Distribution {
 }
 
 /// An exact value, in f64, from a formula independent of every form that it judges.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Reference {
     /// Name, as in `striae eval NAME`.
     pub name: &'static str,
     /// One line.
     pub description: &'static str,
     /// The arguments, in order.
+    #[serde(deserialize_with = "text::slice")]
     pub arguments: &'static [Quantity],
     /// Unit of the value.
     pub unit: &'static str,
@@ -78,7 +102,13 @@ pub struct Reference {
     /// Source: paper and equation.
     pub source: &'static str,
     /// What it returns at one point; arguments in the order above.
+    #[serde(skip, default = "no_value")]
     pub evaluate: Evaluate,
+}
+
+/// Of a reference whose text alone is known.
+fn no_value() -> Evaluate {
+    Evaluate::Scalar(|_| Ok(f64::NAN))
 }
 
 /// The arguments of a reference as an array, since the caller may have got their number wrong.
@@ -98,21 +128,25 @@ pub fn arguments<const N: usize>(point: &[f64]) -> Result<[f64; N], DomainError>
 /// A form is judged in a region that has a column for every argument of its reference and for
 /// every input of its own; an input that the reference does not take (the area of a footprint, say)
 /// is a further column.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Region {
     /// Short name, as in tables: `[-10, 10]`, `far`, `scene` …
     pub name: &'static str,
     /// In words: what it covers and why it is judged.
     pub description: &'static str,
     /// The points, as a table with one column per argument of the reference; never fitted points.
+    #[serde(skip, default = "no_points")]
     pub points: fn() -> Table,
     /// Points of the same distribution on which a spec with `region = "name"` fits, others than
     /// `points`; a column `weight`, where there is one, multiplies the squared residuals.
+    #[serde(skip)]
     pub fitted: Option<fn() -> Table>,
     /// An argument whose values part the points into groups: relative errors are then measured
     /// group by group (over the offset for every half-extent, say) and the worst group counts.
     pub by: Option<&'static str>,
     /// The error by which forms are compared there.
+    #[serde(default)]
     pub yardstick: Yardstick,
 }
 
@@ -130,10 +164,11 @@ impl Region {
 }
 
 /// The error by which forms are compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, serde::Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Yardstick {
     /// Largest magnitude.
+    #[default]
     MaxAbs,
     /// Largest magnitude relative to the target.
     MaxRelative,
@@ -152,24 +187,37 @@ impl Yardstick {
     }
 }
 
+/// Of a region whose text alone is known.
+fn no_points() -> fn() -> Table {
+    Region::EMPTY.points
+}
+
 /// Evaluates a form in f32 at the rows of a table, from which it takes its inputs by name; all NaN if
 /// one is not there.
 pub type FormValues<'a> = &'a dyn Fn(&Table) -> Vec<f32>;
 
+/// Worst violation of a law by a form.
+pub type Violation = for<'a> fn(FormValues<'a>) -> f64;
+
 /// A property that a form must have whatever its error: oddness, range, monotonicity, end points.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Law {
     /// Short name.
     pub name: &'static str,
     /// What is required, with the tolerance and why.
     pub description: &'static str,
     /// Worst violation over hard points, 0 when the law holds exactly.
-    pub violation: for<'a> fn(FormValues<'a>) -> f64,
+    #[serde(skip, default = "never_holds")]
+    pub violation: Violation,
     /// Largest violation accepted.
+    #[serde(default)]
     pub tolerance: f64,
     /// References to whose forms it applies; empty means all of the effect's.
+    #[serde(default, deserialize_with = "text::slice")]
     pub references: &'static [&'static str],
     /// Names of the forms known not to satisfy it, each with the reason; shown, not hidden.
+    #[serde(default, deserialize_with = "text::known_violations")]
     pub known_violations: &'static [(&'static str, &'static str)],
 }
 
@@ -192,6 +240,11 @@ impl Law {
         let mut violations = violations.into_iter().peekable();
         if violations.peek().is_none() { f64::INFINITY } else { violations.fold(0.0, larger) }
     }
+}
+
+/// Of a law whose text alone is known.
+fn never_holds() -> Violation {
+    Law::EMPTY.violation
 }
 
 /// One table of a [`Family`]: what a form is fitted to under one set of conditions.
@@ -227,7 +280,8 @@ pub struct Family {
 pub struct FamilyError(pub String);
 
 /// An error that a form was to reach at a cost, held beside what it reaches.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Goal {
     /// The fit.
     pub fit: &'static str,

@@ -2,34 +2,50 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use crate::document;
 use crate::measured::spectra::Spectra;
 use crate::table::Grid;
 
 /// A setting of a simulator.
-#[derive(Debug, Clone, Copy, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Setting {
     /// Name, as in `--set name=value`.
     pub name: &'static str,
     /// Unit of a number, `1` for a pure one; empty for a word or a file.
+    #[serde(default)]
     pub unit: &'static str,
     /// Value where it is not set; empty for none.
+    #[serde(default)]
     pub default: &'static str,
     /// What it is, and its domain.
     pub description: &'static str,
 }
 
+/// Makes a table from settings.
+pub type Simulate = fn(&Settings, &Spectra) -> Result<Simulation, SimulationError>;
+
 /// Makes a table of one effect.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Simulator {
     /// Name, as in `striae simulate NAME`.
     pub name: &'static str,
     /// One line.
     pub description: &'static str,
     /// What may be set.
+    #[serde(deserialize_with = "super::text::slice")]
     pub parameters: &'static [Setting],
     /// Makes the table.
-    pub run: fn(&Settings, &Spectra) -> Result<Simulation, SimulationError>,
+    #[serde(skip, default = "nothing")]
+    pub run: Simulate,
+}
+
+/// Of a simulator whose text alone is known.
+fn nothing() -> Simulate {
+    |_, _| Err(SimulationError("nothing is simulated".into()))
 }
 
 /// A simulated table, and what was measured on it.
@@ -57,48 +73,19 @@ pub struct Settings {
 
 /// Why a setting is not accepted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SettingsError {
-    /// No `=`, or nothing before it.
-    #[error("setting `{text}`: expected key=value")]
-    NotAnAssignment {
-        /// As given.
-        text: String,
-    },
-    /// A name that the simulator does not know.
-    #[error("setting `{key}` is not known; known: {known}")]
-    UnknownKey {
-        /// As given.
-        key: String,
-        /// The names that are known.
-        known: String,
-    },
-    /// A name given twice.
-    #[error("setting `{key}` is given twice")]
-    Twice {
-        /// The name.
-        key: String,
-    },
-    /// A value that is not what the setting takes.
-    #[error("setting `{key}`: expected {expected}{unit}, got `{got}`")]
-    Value {
-        /// The name.
-        key: String,
-        /// What it takes.
-        expected: String,
-        /// Its unit between brackets, after a space; empty for none.
-        unit: String,
-        /// As given.
-        got: String,
-    },
-    /// Settings that exclude or need each other.
-    #[error("setting `{key}`: {reason}")]
-    Conflict {
-        /// The name.
-        key: String,
-        /// What stands in the way.
-        reason: String,
-    },
+#[error("setting `{setting}`{fault}")]
+pub struct SettingsError {
+    /// Its name, or the text that has none.
+    pub setting: String,
+    /// What is wrong with it, in words that follow its name.
+    pub fault: String,
+}
+
+impl SettingsError {
+    /// `fault` follows the name of `setting`.
+    pub fn new(setting: &str, fault: impl Into<String>) -> Self {
+        Self { setting: setting.to_owned(), fault: fault.into() }
+    }
 }
 
 impl Settings {
@@ -123,31 +110,31 @@ impl Settings {
                 .split_once('=')
                 .map(|(key, value)| (key.trim(), value.trim()))
                 .filter(|(key, _)| !key.is_empty())
-                .ok_or_else(|| SettingsError::NotAnAssignment { text: text.into() })?;
+                .ok_or_else(|| SettingsError::new(text, ": expected key=value"))?;
             let name = settings.known(key)?.name;
             if settings.given.insert(name, value.to_owned()).is_some() {
-                return Err(SettingsError::Twice { key: key.into() });
+                return Err(SettingsError::new(key, " is given twice"));
             }
         }
         Ok(settings)
     }
 
     fn known(&self, key: &str) -> Result<&'static Setting, SettingsError> {
-        self.parameters.iter().find(|p| p.name == key).ok_or_else(|| SettingsError::UnknownKey {
-            key: key.into(),
-            known: self.parameters.iter().map(|p| p.name).collect::<Vec<_>>().join(", "),
+        self.parameters.iter().find(|p| p.name == key).ok_or_else(|| {
+            let known: Vec<&str> = self.parameters.iter().map(|p| p.name).collect();
+            SettingsError::new(key, format!(" is not known; known: {}", known.join(", ")))
         })
     }
 
-    /// Whether `key` was given.
-    pub fn is_given(&self, key: &str) -> bool {
-        self.given.contains_key(key)
+    /// The value of `key` as text, if it was given.
+    pub fn given(&self, key: &str) -> Option<&str> {
+        self.given.get(key).map(String::as_str)
     }
 
     /// The value of `key` as text, the default where it was not given.
     ///
     /// # Errors
-    /// [`SettingsError::UnknownKey`].
+    /// [`SettingsError`] for a name that is not known.
     pub fn text(&self, key: &str) -> Result<&str, SettingsError> {
         let parameter = self.known(key)?;
         Ok(self.given.get(key).map_or(parameter.default, String::as_str))
@@ -156,7 +143,7 @@ impl Settings {
     /// The value of `key`, a finite number in [`lowest`, `highest`].
     ///
     /// # Errors
-    /// [`SettingsError::Value`] with the range and the unit.
+    /// [`SettingsError`] with the range and the unit.
     pub fn number(&self, key: &str, lowest: f64, highest: f64) -> Result<f64, SettingsError> {
         let text = self.text(key)?;
         let number = text.parse::<f64>().ok().filter(|v| (lowest..=highest).contains(v));
@@ -166,7 +153,7 @@ impl Settings {
     /// The value of `key`, a whole number in [`lowest`, `highest`].
     ///
     /// # Errors
-    /// [`SettingsError::Value`] with the range and the unit.
+    /// [`SettingsError`] with the range and the unit.
     pub fn count(&self, key: &str, lowest: usize, highest: usize) -> Result<usize, SettingsError> {
         let text = self.text(key)?;
         let number = text.parse::<usize>().ok().filter(|v| (lowest..=highest).contains(v));
@@ -177,7 +164,7 @@ impl Settings {
     /// The choice that the value of `key` names.
     ///
     /// # Errors
-    /// [`SettingsError::Value`] listing the names.
+    /// [`SettingsError`] listing the names.
     pub fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<T, SettingsError> {
         let text = self.text(key)?;
         let found = choices.iter().find(|(name, _)| *name == text).map(|(_, choice)| *choice);
@@ -190,12 +177,9 @@ impl Settings {
     /// The error for a value of `key` that is not `expected`.
     pub fn refused(&self, key: &str, expected: &str) -> SettingsError {
         let unit = self.parameters.iter().find(|p| p.name == key).map_or("", |p| p.unit);
-        SettingsError::Value {
-            key: key.into(),
-            expected: expected.into(),
-            unit: if unit.is_empty() { String::new() } else { format!(" [{unit}]") },
-            got: self.text(key).unwrap_or_default().into(),
-        }
+        let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+        let got = self.text(key).unwrap_or_default();
+        SettingsError::new(key, format!(": expected {expected}{unit}, got `{got}`"))
     }
 }
 
@@ -213,7 +197,7 @@ mod tests {
         let settings = Settings::parse(PARAMETERS, &[" size = 5"]).expect("settings");
         assert_eq!(settings.count("size", 1, 9), Ok(5));
         assert_eq!(settings.text("window"), Ok("hann"));
-        assert!(settings.is_given("size") && !settings.is_given("window"));
+        assert!(settings.given("size").is_some() && settings.given("window").is_none());
         assert_eq!(Settings::new(PARAMETERS).number("size", 0.0, 9.0), Ok(3.0));
     }
 

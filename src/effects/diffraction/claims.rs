@@ -5,67 +5,26 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::Vector3;
 
 use super::exhibits::{
-    GREEN_NM, cosine_error, disc_furnace, fixed_cosine_error, mean_over_disc, rule_errors,
+    GREEN_NM, PAPER, cosine_error, disc_furnace, fixed_cosine_error, mean_over_disc, rule_errors,
 };
 use super::preparation::{USUAL, prepared};
-use super::surfaces::{HolographicPaper, Patch, holographic_paper};
-use super::table::{Channels, NORMAL, TableShape, of_surface, relative_l2};
+use super::surfaces::{Patch, holographic_paper};
+use super::table::{NORMAL, TableShape, of_surface, relative_l2};
 use super::{DiffractionError, sinusoid_order_power};
-use crate::effect::claim::REPORT;
-use crate::effect::{Candidates, Claim, ClaimError, Found};
+use crate::effect::claim::Check;
+use crate::effect::{Candidates, ClaimError, Found};
 use crate::factor::Decomposition;
 use crate::measured::spectra::Spectra;
 
-pub(super) const CLAIMS: &[Claim<Candidates>] = &[
-    Claim {
-        name: "prefactor",
-        place: "toisoul2017 eq. 1 and 2",
-        printed: "4π² F² G ∫ I P/λ² dλ",
-        command: REPORT,
-        check: prefactor,
-    },
-    Claim {
-        name: "one_wavelength",
-        place: "toisoul2017 eq. 2",
-        printed: "S_d = ∫ I(2πh/λ) P/λ² dλ from one wavelength",
-        command: REPORT,
-        check: one_wavelength,
-    },
-    Claim {
-        name: "jacobian",
-        place: "toisoul2017 eq. 6, 7",
-        printed: "Σ (1 + ω_i·ω_o)² S_d L_i",
-        command: REPORT,
-        check: jacobian,
-    },
-    Claim {
-        name: "fixed_cosine",
-        place: "toisoul2017 eq. 5, 6",
-        printed: "one table, times (1 + ω_i·ω_o)²",
-        command: REPORT,
-        check: fixed_cosine,
-    },
-    Claim {
-        name: "reflection",
-        place: "toisoul2017 alg. 2, line 5",
-        printed: "ω_i = ω_o − 2(ω_o·h)h",
-        command: REPORT,
-        check: reflection,
-    },
-    Claim {
-        name: "cross_terms",
-        place: "toisoul2017 eq. 10, 11",
-        printed: "Σ_m f_v(h_k, h_m) Σ_l Σ_n f_h(h_n, h_l)",
-        command: REPORT,
-        check: cross_terms,
-    },
-    Claim {
-        name: "fresnel",
-        place: "toisoul2017 eq. 4",
-        printed: "F² becomes Schlick's F_0²",
-        command: REPORT,
-        check: fresnel,
-    },
+/// Checks of the claims, by name.
+pub(super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+    ("prefactor", prefactor),
+    ("one_wavelength", one_wavelength),
+    ("jacobian", jacobian),
+    ("fixed_cosine", fixed_cosine),
+    ("reflection", reflection),
+    ("cross_terms", cross_terms),
+    ("fresnel", fresnel),
 ];
 
 fn percent(values: [f64; 3]) -> String {
@@ -153,21 +112,9 @@ fn reflection(_: &Candidates) -> Result<Found, ClaimError> {
 
 /// Eq. 10 sums over ranks outside and eq. 11 again inside: (Σ_m u_m)(Σ_n v_n)ᵀ in place of Σ_m u_m v_mᵀ.
 fn cross_terms(_: &Candidates) -> Result<Found, ClaimError> {
-    let paper = HolographicPaper {
-        cell_um: 8.0,
-        pitch_um: [1.0, 2.0],
-        amplitude_nm: 60.0,
-        spread: 0.2,
-        seed: 1,
-    };
     let patch = Patch { samples: 128, side_um: 25.6, line: false };
-    let surface = prepared(&holographic_paper(paper, patch), USUAL)?;
-    let shape = TableShape {
-        size: [65, 65],
-        extent: 1.0,
-        wavelengths_nm: vec![GREEN_NM],
-        channels: Channels::Spectral,
-    };
+    let surface = prepared(&holographic_paper(PAPER, patch), USUAL)?;
+    let shape = TableShape::at(GREEN_NM, [65, 65], 1.0);
     let grid = of_surface(&surface, &shape, 2, NORMAL, &Spectra::built_in()?)?.grid;
     let decomposition = Decomposition::of(&grid).map_err(DiffractionError::from)?;
     // Both kernels are of the same orthogonal terms, so that the share of the table's norm in one is

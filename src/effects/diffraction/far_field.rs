@@ -141,6 +141,20 @@ impl FarField {
         crate::numeric::statistics::sum(kept)
     }
 
+    /// The strongest of the cells that are `allowed`, by place along x and y: its power and place, power
+    /// 0 if there is none.
+    pub(super) fn strongest(&self, allowed: impl Fn(usize, usize) -> bool) -> (f64, usize, usize) {
+        let mut best = (0.0, 0, 0);
+        for (y, row) in self.power.chunks(self.x.count).enumerate() {
+            for (x, power) in row.iter().enumerate() {
+                if *power > best.0 && allowed(x, y) {
+                    best = (*power, x, y);
+                }
+            }
+        }
+        best
+    }
+
     /// Share of the power beyond |h| = 1, which no direction of light has: evanescent in Kirchhoff's
     /// approximation at normal exitance.
     pub fn evanescent(&self) -> f64 {

@@ -59,14 +59,12 @@ mod far_field;
 mod illuminant;
 mod laws;
 mod orders;
-mod parameters;
 mod preparation;
 mod reference;
 mod regions;
 mod resample;
 mod simulate;
 mod simulation;
-mod steps;
 mod surfaces;
 mod table;
 
@@ -82,95 +80,52 @@ pub use preparation::{
 pub use reference::{MOST_ORDER, MOST_PHASE, rectangular_order_power, sinusoid_order_power};
 pub use resample::{Cells, gathered};
 pub use simulate::{settings, simulated_heights, simulated_table};
-pub use steps::{Step, StepEffect, step_effects};
 pub use surfaces::{
     CompactDisc, Grating, HolographicPaper, Patch, PixelLattice, Profile, compact_disc, grating,
     holographic_paper, pixel_lattice,
 };
 pub use table::{
-    Channels, DiffractionTable, NORMAL, PatternPlacing, TableShape, of_pattern, of_surface,
-    relative_l2,
+    Channels, DiffractionTable, NORMAL, PatternPlacing, PowerShares, TableShape, of_pattern,
+    of_surface, relative_l2,
 };
+
+use std::sync::LazyLock;
 
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{Effect, Evaluate, FormText, Quantity, Reference, arguments};
+use crate::effect::{Effect, FormText, Functions, Scalar, arguments};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/diffraction/forms");
 
 /// The effect, as registered.
-pub const EFFECT: Effect = Effect {
-    name: "diffraction",
-    title: "Diffraction tables",
-    description: "Where the relief of a surface sends light: a table over the projected half vector, \
-                  from measured or simulated heights or from a pattern at one wavelength. Renderers \
-                  filter environments with it; the powers of orders check it.",
-    references: &[SINUSOID, ZERO_ORDER, FIRST_ORDER, RECTANGLE],
-    forms: || FormText::embedded("src/effects/diffraction/forms", &FORMS),
-    simulators: &[simulate::SIMULATOR],
-    regions: regions::REGIONS,
-    hard_cases: &[regions::HARD_CASES],
-    laws: laws::LAWS,
-    baselines: &["diffraction/zero_first_order", "diffraction/one_first_order"],
-    claims: claims::CLAIMS,
-    exhibits: exhibits::exhibits,
-    ..Effect::EMPTY
-};
+pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
+    let functions = Functions {
+        forms: || FormText::embedded("src/effects/diffraction/forms", &FORMS),
+        references: REFERENCES,
+        simulators: &[("diffraction", simulate::run)],
+        regions: regions::REGIONS,
+        hard_cases: regions::HARD_CASES,
+        laws: laws::LAWS,
+        claims: claims::CLAIMS,
+        exhibits: exhibits::exhibits,
+        ..Functions::NONE
+    };
+    Effect::of_text(include_str!("effect.toml"), functions)
+});
 
-const ORDER: Quantity = Quantity { name: "order", unit: "1", domain: "whole, 0 to 10" };
-const PHASE: Quantity = Quantity { name: "phase", unit: "rad", domain: "[0, 20]" };
-
-const SINUSOID: Reference = Reference {
-    name: "sinusoid_order_power",
-    description: "share of the power that a sinusoidal relief sends into an order, J_m(a)^2 of the \
-                  amplitude of the phase a = k w b",
-    arguments: &[ORDER, PHASE],
-    unit: "1",
-    accuracy: "absolute error <= 1e-13 (tests/diffraction.rs)",
-    source: "Jacobi-Anger expansion; Goodman, Introduction to Fourier Optics, 4.4.4",
-    evaluate: Evaluate::Scalar(|point| {
+const REFERENCES: &[(&str, Scalar)] = &[
+    ("sinusoid_order_power", |point| {
         let [order, phase] = arguments(point)?;
         sinusoid_order_power(reference::whole(order)?, phase)
     }),
-};
-
-/// Order 0, of the amplitude of the phase alone: what forms approximate.
-pub(super) const ZERO_ORDER: Reference = Reference {
-    name: "sinusoid_zero_order",
-    description: "share of the power that a sinusoidal relief leaves in the mirror direction, J_0(a)^2",
-    arguments: &[PHASE],
-    evaluate: Evaluate::Scalar(|point| {
-        let [phase] = arguments(point)?;
-        sinusoid_order_power(0, phase)
-    }),
-    ..SINUSOID
-};
-
-/// Order 1 or -1, of the amplitude of the phase alone.
-pub(super) const FIRST_ORDER: Reference = Reference {
-    name: "sinusoid_first_order",
-    description: "share of the power that a sinusoidal relief sends into one first order, J_1(a)^2",
-    arguments: &[PHASE],
-    evaluate: Evaluate::Scalar(|point| {
-        let [phase] = arguments(point)?;
-        sinusoid_order_power(1, phase)
-    }),
-    ..SINUSOID
-};
-
-const RECTANGLE: Reference = Reference {
-    name: "rectangular_order_power",
-    description: "share of the power that a rectangular relief sends into an order, by its duty and \
-                  the phase k w D of its depth",
-    arguments: &[ORDER, Quantity { name: "duty", unit: "1", domain: "[0, 1]" }, PHASE],
-    unit: "1",
-    accuracy: "absolute error <= 1e-13 (tests/diffraction.rs)",
-    source: "Fourier series of a rectangular phase",
-    evaluate: Evaluate::Scalar(|point| {
+    // Of the amplitude of the phase alone: what forms approximate.
+    ("sinusoid_zero_order", |point| arguments(point).and_then(|[a]| sinusoid_order_power(0, a))),
+    ("sinusoid_first_order", |point| arguments(point).and_then(|[a]| sinusoid_order_power(1, a))),
+    ("rectangular_order_power", |point| {
         let [order, duty, phase] = arguments(point)?;
         rectangular_order_power(reference::whole(order)?, duty, phase)
     }),
-};
+];
 
 #[cfg(test)]
 mod tests;

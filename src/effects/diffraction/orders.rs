@@ -31,13 +31,10 @@ const FLAT_NM: f64 = 1e-6;
 /// # Errors
 /// As [`FarFieldTransform::new`].
 pub fn fundamental(surface: &PreparedHeights) -> Result<Option<[f64; 2]>, DiffractionError> {
-    let weighted: Vec<f64> =
-        surface.height_nm.iter().zip(&surface.amplitude).map(|(h, a)| h * a).collect();
-    let mean = statistics::sum(weighted.iter().copied())
+    let samples = || surface.height_nm.iter().zip(&surface.amplitude);
+    let mean = statistics::sum(samples().map(|(h, a)| h * a))
         / statistics::sum(surface.amplitude.iter().copied());
-    let deviation = |(h, a): (&f64, &f64)| a * (h - mean);
-    let screen: Vec<f64> =
-        surface.height_nm.iter().zip(&surface.amplitude).map(deviation).collect();
+    let screen: Vec<f64> = samples().map(|(h, a)| a * (h - mean)).collect();
     let largest = screen.iter().fold(0.0_f64, |worst, v| worst.max(v.abs()));
     if largest < FLAT_NM {
         return Ok(None);
@@ -49,24 +46,17 @@ pub fn fundamental(surface: &PreparedHeights) -> Result<Option<[f64; 2]>, Diffra
     };
     let field =
         FarFieldTransform::new(&shallow, 1)?.far_field(&shallow, std::f64::consts::TAU, 1.0);
-    let beyond_dc = |f: f64, pitch: f64| (f / pitch).abs();
-    let mut best = (0.0, [0.0; 2]);
-    for (y, row) in field.power.chunks(field.x.count).enumerate() {
-        for (x, power) in row.iter().enumerate() {
-            let f = [field.x.centre(x), field.y.centre(y)];
-            // The window's main lobe around 0 spans two cells; one of each pair ±f is enough.
-            let away = beyond_dc(f[0], field.x.pitch) > 2.5 || beyond_dc(f[1], field.y.pitch) > 2.5;
-            let half = f[0] > 0.0 || (f[0] == 0.0 && f[1] > 0.0);
-            if away && half && *power > best.0 {
-                best = (*power, f);
-            }
-        }
-    }
-    if best.0 <= 0.0 {
+    let (power, x, y) = field.strongest(|x, y| {
+        let f = [field.x.centre(x), field.y.centre(y)];
+        // The window's main lobe around 0 spans two cells; one of each pair ±f is enough.
+        let away = (f[0] / field.x.pitch).abs() > 2.5 || (f[1] / field.y.pitch).abs() > 2.5;
+        away && (f[0] > 0.0 || (f[0] == 0.0 && f[1] > 0.0))
+    });
+    if power <= 0.0 {
         return Ok(None);
     }
-    let pitch = [field.x.pitch, field.y.pitch];
-    Ok(Some(refined(surface, &screen, best.1, pitch)))
+    let start = [field.x.centre(x), field.y.centre(y)];
+    Ok(Some(refined(surface, &screen, start, [field.x.pitch, field.y.pitch])))
 }
 
 /// Maximum of |Σ screen e^(−2πi f·x)|² near `start`, by parabolas along x and y in turn.

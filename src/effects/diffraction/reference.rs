@@ -66,8 +66,8 @@ fn within(
     got: f64,
     expected: &'static str,
     most: f64,
-) -> Result<(), DomainError> {
-    if (0.0..=most).contains(&got) { Ok(()) } else { Err(DomainError { quantity, expected, got }) }
+) -> Result<f64, DomainError> {
+    DomainError::unless((0.0..=most).contains(&got), quantity, got, expected)
 }
 
 /// An order given as a number.
@@ -75,11 +75,9 @@ fn within(
 /// # Errors
 /// [`DomainError`] if it is no whole number from 0 to 10.
 pub(super) fn whole(order: f64) -> Result<u32, DomainError> {
-    if order.fract() == 0.0 && (0.0..=f64::from(MOST_ORDER)).contains(&order) {
-        Ok(order as u32)
-    } else {
-        Err(DomainError { quantity: "order", expected: "whole numbers from 0 to 10", got: order })
-    }
+    let inside = order.fract() == 0.0 && (0.0..=f64::from(MOST_ORDER)).contains(&order);
+    DomainError::unless(inside, "order", order, "whole numbers from 0 to 10")?;
+    Ok(order as u32)
 }
 
 #[cfg(test)]

@@ -5,46 +5,22 @@ use std::f64::consts::TAU;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use crate::effect::{Region, points};
+use crate::effect::{Points, points};
 use crate::table::{Column, Table};
 
 /// Phase of a disc's pits: k w D/2 for D = 120 nm at 450 nm, w = 2.
 const DISC: f64 = 1.676;
 
-/// Regions of the effect.
-pub(super) const REGIONS: &[Region] = &[
-    Region {
-        name: "one turn",
-        description: "Amplitudes of the phase up to a turn, past the second zero of J_0: reliefs up \
-                      to half a wavelength at normal incidence. 2000 points between those of the \
-                      fits, 1000 drawn uniformly, and the hard cases inside.",
-        points: || up_to(TAU, 2018),
-        ..Region::EMPTY
-    },
-    Region {
-        name: "discs",
-        description: "Up to half the phase of a disc's pit in the blue, 1.676: 2000 points in equal \
-                      steps, 1000 drawn uniformly.",
-        points: || up_to(DISC, 2019),
-        ..Region::EMPTY
-    },
-    Region {
-        name: "shallow",
-        description: "Up to 0.3, a relief of 13 nm at 550 nm, where the first order is meant: 2000 \
-                      points in equal steps, 1000 drawn uniformly.",
-        points: || up_to(0.3, 2020),
-        ..Region::EMPTY
-    },
+/// Regions of the effect, by name: points that are judged and that are fitted.
+pub(super) const REGIONS: &[(&str, Points, Option<Points>)] = &[
+    ("one turn", || up_to(TAU, 2018), None),
+    ("discs", || up_to(DISC, 2019), None),
+    ("shallow", || up_to(0.3, 2020), None),
 ];
 
-/// The hard cases, as registered.
-pub(super) const HARD_CASES: Region = Region {
-    name: "hard cases",
-    description: "no relief, subnormal and tiny phases, zeros and extrema of J_0 and J_1 with their \
-                  neighbours, and the turn",
-    points: || table(hard_cases(), "hard cases"),
-    ..Region::EMPTY
-};
+/// Hard cases, by name.
+pub(super) const HARD_CASES: &[(&str, Points)] =
+    &[("hard cases", || table(hard_cases(), "hard cases"))];
 
 /// Zeros of J_0 and J_1 and their extrema up to a turn (DLMF §10.21), phases of a disc.
 const SPECIAL: [f64; 8] = [

@@ -1,7 +1,6 @@
 //! Diffraction tables from settings: what `striae simulate diffraction` and renderers ask for.
 
 use super::illuminant::IlluminantChoice;
-use super::parameters::PARAMETERS;
 use super::preparation::{Detrend, Missing, Preparation, PreparedHeights, Window, prepared};
 use super::surfaces::{
     CompactDisc, Grating, HolographicPaper, Patch, PixelLattice, Profile, compact_disc, grating,
@@ -10,27 +9,20 @@ use super::surfaces::{
 use super::table::{
     Channels, DiffractionTable, PatternPlacing, TableShape, of_pattern, of_surface,
 };
-use super::{DiffractionError, simulation};
-use crate::effect::simulator::{Settings, SettingsError, Simulation, SimulationError, Simulator};
+use super::{DiffractionError, EFFECT, simulation};
+use crate::effect::simulator::{Settings, SettingsError, Simulation, SimulationError};
 use crate::measured::height_map::HeightMap;
 use crate::measured::pattern::{Encoding, Pattern};
 use crate::measured::spectra::Spectra;
 use crate::table::Grid;
-
-/// The simulator, as registered.
-pub(super) const SIMULATOR: Simulator = Simulator {
-    name: "diffraction",
-    description: "diffraction table over the projected half vector, from heights or a pattern",
-    parameters: PARAMETERS,
-    run,
-};
 
 /// Settings of the simulator from `key=value` texts.
 ///
 /// # Errors
 /// As [`Settings::parse`].
 pub fn settings<S: AsRef<str>>(assignments: &[S]) -> Result<Settings, SettingsError> {
-    Settings::parse(PARAMETERS, assignments)
+    let parameters = EFFECT.simulators.first().map_or(&[][..], |simulator| simulator.parameters);
+    Settings::parse(parameters, assignments)
 }
 
 /// The diffraction table that the settings describe, in sr⁻¹ over h_x and h_y.
@@ -41,7 +33,7 @@ pub fn simulated_table(settings: &Settings, spectra: &Spectra) -> Result<Grid, D
     Ok(table(settings, spectra)?.0.grid)
 }
 
-fn run(settings: &Settings, spectra: &Spectra) -> Result<Simulation, SimulationError> {
+pub(super) fn run(settings: &Settings, spectra: &Spectra) -> Result<Simulation, SimulationError> {
     let described = || -> Result<Simulation, DiffractionError> {
         let (table, source) = table(settings, spectra)?;
         simulation::described(settings, table, source)
@@ -95,11 +87,9 @@ pub(super) fn preparation(settings: &Settings) -> Result<Preparation, SettingsEr
 /// Extent and channels of the table.
 pub(super) fn shape(settings: &Settings) -> Result<TableShape, DiffractionError> {
     let size = settings.count("size", 1, 2048)?;
-    let extent = number_or(settings, "extent", 1e-3, 2.0, || {
-        let from_file = settings.is_given("heightmap") || settings.is_given("pattern");
-        let screen = matches!(settings.text("surface"), Ok("display" | "phone"));
-        if screen && !from_file { 0.15 } else { 1.0 }
-    })?;
+    let from_file = settings.given("heightmap").or(settings.given("pattern")).is_some();
+    let screen = !from_file && settings.text("surface").is_ok_and(is_screen);
+    let extent = number_or(settings, "extent", 1e-3, 2.0, if screen { 0.15 } else { 1.0 })?;
     let rgb = settings.choice("channels", &[("rgb", true), ("spectral", false)])?;
     let channels = if rgb {
         Channels::Rgb(IlluminantChoice::named(settings.text("illuminant")?)?)
@@ -143,33 +133,26 @@ fn number_or(
     key: &str,
     lowest: f64,
     highest: f64,
-    default: impl FnOnce() -> f64,
+    default: f64,
 ) -> Result<f64, SettingsError> {
-    if settings.is_given(key) { settings.number(key, lowest, highest) } else { Ok(default()) }
+    settings.given(key).map_or(Ok(default), |_| settings.number(key, lowest, highest))
 }
 
 fn pattern(settings: &Settings) -> Result<Option<(Pattern, PatternPlacing)>, DiffractionError> {
-    if !settings.is_given("pattern") {
-        return Ok(None);
-    }
-    for other in ["surface", "heightmap"] {
-        if settings.is_given(other) {
-            let reason = format!("a table is made from a pattern or from a {other}, not from both");
-            return Err(SettingsError::Conflict { key: "pattern".into(), reason }.into());
-        }
-    }
+    let Some(file) = settings.given("pattern") else { return Ok(None) };
+    alone(settings, "pattern", "surface")?;
+    alone(settings, "pattern", "heightmap")?;
     let encodings = [("srgb", Encoding::Srgb), ("linear", Encoding::Linear)];
     let encoding = settings.choice("pattern_encoding", &encodings)?;
-    let channel = settings.is_given("pattern_channel").then(|| settings.text("pattern_channel"));
-    let pattern = Pattern::read(settings.text("pattern")?, channel.transpose()?, encoding)?;
-    let centre = if settings.is_given("pattern_centre_px") {
-        let parts = settings.text("pattern_centre_px")?.split_once(',');
-        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
-        parts
-            .and_then(|(x, y)| Some([number(x)?, number(y)?]))
-            .ok_or_else(|| settings.refused("pattern_centre_px", "x,y"))?
-    } else {
-        [0.5 * pattern.width as f64, 0.5 * pattern.height as f64]
+    let pattern = Pattern::read(file, settings.given("pattern_channel"), encoding)?;
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let point = |text: &str| {
+        let (x, y) = text.split_once(',')?;
+        Some([number(x)?, number(y)?])
+    };
+    let centre = match settings.given("pattern_centre_px").map(point) {
+        Some(given) => given.ok_or_else(|| settings.refused("pattern_centre_px", "x,y"))?,
+        None => [0.5 * pattern.width as f64, 0.5 * pattern.height as f64],
     };
     let placing = PatternPlacing {
         wavelength_nm: settings.number("wavelength_nm", 1.0, 1e5)?,
@@ -181,15 +164,24 @@ fn pattern(settings: &Settings) -> Result<Option<(Pattern, PatternPlacing)>, Dif
 }
 
 fn heights(settings: &Settings) -> Result<HeightMap, DiffractionError> {
-    if settings.is_given("heightmap") {
-        if settings.is_given("surface") {
-            let reason = "a table is made from a heightmap or from a surface, not from both";
-            let key = "heightmap".into();
-            return Err(SettingsError::Conflict { key, reason: reason.into() }.into());
-        }
-        return Ok(HeightMap::read(settings.text("heightmap")?)?);
-    }
-    Ok(simulated_heights(settings)?)
+    let Some(file) = settings.given("heightmap") else { return Ok(simulated_heights(settings)?) };
+    alone(settings, "heightmap", "surface")?;
+    Ok(HeightMap::read(file)?)
+}
+
+/// Refuses `other` beside `key`.
+fn alone(settings: &Settings, key: &str, other: &str) -> Result<(), SettingsError> {
+    let fault = format!(": a table is made from a {key} or from a {other}, not from both");
+    settings.given(other).map_or(Ok(()), |_| Err(SettingsError::new(key, fault)))
+}
+
+/// Surfaces that can be simulated.
+const SURFACES: [&str; 7] =
+    ["compact_disc", "sinusoid", "rectangle", "blazed", "display", "phone", "holographic_paper"];
+
+/// Whether a surface is that of a screen.
+fn is_screen(surface: &str) -> bool {
+    matches!(surface, "display" | "phone")
 }
 
 /// Heights of the simulated surface that the settings describe.
@@ -197,28 +189,17 @@ fn heights(settings: &Settings) -> Result<HeightMap, DiffractionError> {
 /// # Errors
 /// [`SettingsError`] for a setting outside its domain.
 pub fn simulated_heights(settings: &Settings) -> Result<HeightMap, SettingsError> {
-    let surface = settings.choice(
-        "surface",
-        &[
-            ("compact_disc", Surface::CompactDisc),
-            ("sinusoid", Surface::Sinusoid),
-            ("rectangle", Surface::Rectangle),
-            ("blazed", Surface::Blazed),
-            ("display", Surface::Display),
-            ("phone", Surface::Phone),
-            ("holographic_paper", Surface::HolographicPaper),
-        ],
-    )?;
-    let screen = matches!(surface, Surface::Display | Surface::Phone);
+    let surface = settings.choice("surface", &SURFACES.map(|name| (name, name)))?;
+    let screen = is_screen(surface);
     let patch = Patch {
         samples: settings.count("samples", 16, 4096)?,
-        side_um: number_or(settings, "side_um", 1e-2, 1e6, || if screen { 409.6 } else { 51.2 })?,
+        side_um: number_or(settings, "side_um", 1e-2, 1e6, if screen { 409.6 } else { 51.2 })?,
         line: false,
     };
-    let length = |key: &str, default: f64| number_or(settings, key, 1e-3, 1e6, || default);
-    let height = |key: &str, default: f64| number_or(settings, key, 0.0, 1e6, || default);
+    let length = |key: &str, default: f64| number_or(settings, key, 1e-3, 1e6, default);
+    let height = |key: &str, default: f64| number_or(settings, key, 0.0, 1e6, default);
     let angle = |key: &str, default: f64| {
-        number_or(settings, key, -360.0, 360.0, || default).map(f64::to_radians)
+        number_or(settings, key, -360.0, 360.0, default).map(f64::to_radians)
     };
     let seed = settings.count("seed", 0, usize::MAX)? as u64;
     let of_grating = |profile| -> Result<HeightMap, SettingsError> {
@@ -231,12 +212,12 @@ pub fn simulated_heights(settings: &Settings) -> Result<HeightMap, SettingsError
             matrix_share: settings.number("matrix_share", 0.0, 0.9)?,
             depth_nm: height("depth_nm", 100.0)?,
             angle: angle("angle_deg", turn)?,
-            skew: number_or(settings, "skew_deg", -60.0, 60.0, || lean)?.to_radians(),
+            skew: number_or(settings, "skew_deg", -60.0, 60.0, lean)?.to_radians(),
         };
         Ok(pixel_lattice(lattice, patch))
     };
     match surface {
-        Surface::CompactDisc => {
+        "compact_disc" => {
             let disc = CompactDisc {
                 pitch_um: length("pitch_um", 1.6)?,
                 pit_width_um: settings.number("pit_width_um", 1e-3, 1e6)?,
@@ -246,17 +227,16 @@ pub fn simulated_heights(settings: &Settings) -> Result<HeightMap, SettingsError
             };
             Ok(compact_disc(disc, patch))
         }
-        Surface::Sinusoid => {
-            of_grating(Profile::Sinusoid { amplitude_nm: height("amplitude_nm", 30.0)? })
-        }
-        Surface::Rectangle => of_grating(Profile::Rectangle {
+        "sinusoid" => of_grating(Profile::Sinusoid { amplitude_nm: height("amplitude_nm", 30.0)? }),
+        "rectangle" => of_grating(Profile::Rectangle {
             depth_nm: height("depth_nm", 120.0)?,
             duty: settings.number("duty", 0.0, 1.0)?,
         }),
-        Surface::Blazed => of_grating(Profile::Blazed { height_nm: height("depth_nm", 200.0)? }),
-        Surface::Display => of_pixels(50.0, 20.0, 0.0),
-        Surface::Phone => of_pixels(40.0, 35.0, 12.0),
-        Surface::HolographicPaper => {
+        "blazed" => of_grating(Profile::Blazed { height_nm: height("depth_nm", 200.0)? }),
+        "display" => of_pixels(50.0, 20.0, 0.0),
+        "phone" => of_pixels(40.0, 35.0, 12.0),
+        // Holographic paper.
+        _ => {
             let paper = HolographicPaper {
                 cell_um: settings.number("cell_um", 0.5, 1e6)?,
                 pitch_um: [length("pitch_um", 1.0)?, settings.number("pitch_max_um", 1e-3, 1e6)?],
@@ -267,15 +247,4 @@ pub fn simulated_heights(settings: &Settings) -> Result<HeightMap, SettingsError
             Ok(holographic_paper(paper, patch))
         }
     }
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Surface {
-    CompactDisc,
-    Sinusoid,
-    Rectangle,
-    Blazed,
-    Display,
-    Phone,
-    HolographicPaper,
 }

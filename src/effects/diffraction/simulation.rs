@@ -7,11 +7,11 @@ use super::preparation::{
     Detrend, MOST_SAMPLES, Missing, Preparation, PreparedHeights, Window, prepared,
 };
 use super::simulate::{Origin, padding, preparation, shape, w};
-use super::steps::{Step, changes};
-use super::table::DiffractionTable;
+use super::table::{DiffractionTable, at_wavelength};
 use crate::document::{Cell, PrintedTable};
 use crate::effect::simulator::{Settings, Simulation};
 use crate::measured::height_map::HeightMap;
+use crate::numeric::statistics::{relative_l2, sum};
 
 /// Share of the heights' variance above which a surface counts as a sinusoid.
 const SINUSOIDAL: f64 = 0.4;
@@ -60,14 +60,13 @@ fn number(value: f64) -> Cell {
 
 /// Shares of the power at the first, the middle and the last wavelength.
 fn energies(table: &DiffractionTable) -> PrintedTable {
-    let last = table.wavelengths_nm.len().saturating_sub(1);
+    let last = table.shares.len().saturating_sub(1);
     let mut at = vec![0, last / 2, last];
     at.dedup();
-    let row = |i: usize| -> Option<Vec<Cell>> {
-        let (total, inside) = (*table.total.get(i)?, *table.inside.get(i)?);
-        let (wavelength, evanescent) = (*table.wavelengths_nm.get(i)?, *table.evanescent.get(i)?);
-        Some([wavelength, total, inside, total - inside, evanescent].map(number).to_vec())
-    };
+    let rows = at.into_iter().filter_map(|i| table.shares.get(i)).map(|of| {
+        let outside = of.total - of.inside;
+        [of.wavelength_nm, of.total, of.inside, outside, of.evanescent].map(number).to_vec()
+    });
     PrintedTable::of_rows(
         "Shares of the reflected power",
         [
@@ -77,7 +76,7 @@ fn energies(table: &DiffractionTable) -> PrintedTable {
             ("outside", "1"),
             ("beyond |h| = 1", "1"),
         ],
-        at.into_iter().filter_map(row),
+        rows,
     )
 }
 
@@ -152,20 +151,14 @@ fn order_table(
             predicted_power(order.order.unsigned_abs(), phase.min(20.0), error).ok()
         });
         let [power, uncertainty] = match predicted {
-            Some((power, uncertainty)) => [number(power), number(uncertainty)],
+            Some((power, uncertainty)) => [power, uncertainty].map(number),
             None => ["–", "–"].map(Cell::text),
         };
-        rows.push(vec![
-            number(f64::from(order.order)),
-            number(order.predicted[0]),
-            number(order.predicted[1]),
-            number(order.found[0]),
-            number(order.found[1]),
-            number(order.texels_off),
-            power,
-            uncertainty,
-            number(order.power),
-        ]);
+        let ([x, y], [x_found, y_found]) = (order.predicted, order.found);
+        let places = [f64::from(order.order), x, y, x_found, y_found, order.texels_off];
+        let mut row = places.map(number).to_vec();
+        row.extend([power, uncertainty, number(order.power)]);
+        rows.push(row);
     }
     let table = PrintedTable::of_rows(
         format!("Orders at {} nm: m λ/d, and what the table has", field.wavelength_nm),
@@ -217,4 +210,86 @@ fn steps<'a>(
         steps.push(step("twice the padding", usual, more));
     }
     steps
+}
+
+/// Heights and their preparation, under a name.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Step<'a> {
+    /// What is done otherwise.
+    pub(super) name: &'static str,
+    /// The heights.
+    pub(super) heights: &'a HeightMap,
+    /// The preparation.
+    pub(super) preparation: Preparation,
+    /// Padding of the transform.
+    pub(super) padding: usize,
+}
+
+/// The strongest cell that is at least three cells of the unpadded transform away from the mirror
+/// along x, and the full width at half maximum through it along x, in h.
+fn strongest_order(field: &FarField, side_um: f64) -> ([f64; 2], f64) {
+    let [x, y] = field.cells();
+    let away = 3.0 / side_um * 1e-3 * field.wavelength_nm;
+    let (peak, ix, iy) = field.strongest(|ix, _| x.centre(ix).abs() >= away);
+    let at = |i: usize| field.power.get(iy * x.count + i).copied().unwrap_or(0.0);
+    // Distance in cells to where the power falls through a half, linear between cells.
+    let walk = |step: fn(usize, usize) -> Option<usize>| {
+        let mut distance = 0;
+        while let Some(next) = step(ix, distance + 1).filter(|i| *i < x.count) {
+            let here = step(ix, distance).map_or(0.0, at);
+            if at(next) < 0.5 * peak {
+                return distance as f64 + (here - 0.5 * peak) / (here - at(next));
+            }
+            distance += 1;
+        }
+        distance as f64
+    };
+    let width = walk(|i, n| i.checked_add(n)) + walk(|i, n| i.checked_sub(n));
+    ([x.centre(ix), y.centre(iy)], width * x.pitch)
+}
+
+/// What every step does to the table of the first at one wavelength, in four significant digits.
+///
+/// # Errors
+/// As [`prepared`] and [`FarFieldTransform::new`].
+pub(super) fn changes(
+    steps: &[Step<'_>],
+    wavelength_nm: f64,
+    w: f64,
+    size: usize,
+    extent: f64,
+) -> Result<PrintedTable, DiffractionError> {
+    let mut first: Option<Vec<f64>> = None;
+    let mut rows = Vec::new();
+    for step in steps {
+        let surface = prepared(step.heights, step.preparation)?;
+        let transform = FarFieldTransform::new(&surface, step.padding)?;
+        let field = transform.far_field(&surface, wavelength_nm, w);
+        let (texels, _) = at_wavelength(&field, [size, size], extent);
+        let ([along_x, along_y], width) =
+            strongest_order(&field, surface.nx as f64 * surface.dx_um);
+        let against = first.get_or_insert_with(|| texels.clone());
+        let pairs = texels.iter().copied().zip(against.iter().copied());
+        let (difference, inside) = (relative_l2(pairs), sum(texels.iter().copied()));
+        let numbers = [difference, along_x, along_y, width, field.total(), inside];
+        let mut row = vec![Cell::text(step.name)];
+        row.extend(numbers.map(|value| Cell::number(value, 4)));
+        rows.push(row);
+    }
+    Ok(PrintedTable::of_rows(
+        format!(
+            "What each step does to the table at {wavelength_nm} nm: relative L2 difference from the \
+             first row, and the strongest order with its width at half height"
+        ),
+        [
+            ("step", ""),
+            ("difference", "1"),
+            ("h_x of the order", "1"),
+            ("h_y", "1"),
+            ("width", "1"),
+            ("total power", "1"),
+            ("inside the table", "1"),
+        ],
+        rows,
+    ))
 }

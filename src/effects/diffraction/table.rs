@@ -43,19 +43,26 @@ pub struct TableShape {
     pub channels: Channels,
 }
 
-/// A table with the shares of power that show what it leaves out, one per wavelength.
+/// A table with the shares of power that show what it leaves out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiffractionTable {
     /// The table, in sr⁻¹.
     pub grid: Grid,
-    /// Wavelengths, nm.
-    pub wavelengths_nm: Vec<f64>,
-    /// Sum of all power; 1 by Parseval for a height map.
-    pub total: Vec<f64>,
-    /// Share of the power inside the table.
-    pub inside: Vec<f64>,
-    /// Share of the power beyond |h| = 1; 0 for a pattern.
-    pub evanescent: Vec<f64>,
+    /// Shares at each wavelength.
+    pub shares: Vec<PowerShares>,
+}
+
+/// Shares of the reflected power at one wavelength.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PowerShares {
+    /// Wavelength, nm.
+    pub wavelength_nm: f64,
+    /// All of it; 1 by Parseval for a height map.
+    pub total: f64,
+    /// Inside the table.
+    pub inside: f64,
+    /// Beyond |h| = 1; 0 for a pattern.
+    pub evanescent: f64,
 }
 
 /// Where a pattern lies in terms of h, and how it is taken to other wavelengths.
@@ -71,13 +78,12 @@ pub struct PatternPlacing {
     pub exponent: f64,
 }
 
-struct Share {
-    texels: Vec<f64>,
-    total: f64,
-    evanescent: f64,
-}
-
 impl TableShape {
+    /// A table of one wavelength, as it is.
+    pub(super) fn at(wavelength_nm: f64, size: [usize; 2], extent: f64) -> Self {
+        Self { size, extent, wavelengths_nm: vec![wavelength_nm], channels: Channels::Spectral }
+    }
+
     /// The axes, in increasing h.
     pub fn axes(&self) -> [Axis; 2] {
         let axis = |name, count| Axis::new(name, "1", [-self.extent, self.extent], count);
@@ -131,11 +137,7 @@ pub fn of_surface(
     let share = |wavelength: f64| {
         let field = transform.far_field(surface, wavelength, w);
         let [cells_x, cells_y] = field.cells();
-        Share {
-            texels: gathered(&field.power, cells_x, cells_y, &x, &y),
-            total: field.total(),
-            evanescent: field.evanescent(),
-        }
+        (gathered(&field.power, cells_x, cells_y, &x, &y), field.total(), field.evanescent())
     };
     assembled(shape, spectra, &surface.origin, share)
 }
@@ -187,65 +189,54 @@ pub fn of_pattern(
         let gain = ratio.powf(2.0 - placing.exponent);
         let mut texels = gathered(&power, cells_x.scaled(ratio), cells_y.scaled(ratio), &x, &y);
         texels.iter_mut().for_each(|p| *p *= gain);
-        Share { texels, total: gain, evanescent: 0.0 }
+        (texels, gain, 0.0)
     };
     assembled(shape, spectra, &pattern.origin, share)
 }
 
-/// Power at one wavelength per texel, then per channel, over the texels' area.
+/// A table from what `share` finds at a wavelength: the power per texel, all power, and what of it is
+/// evanescent.
 fn assembled(
     shape: &TableShape,
     spectra: &Spectra,
     origin: &str,
-    share: impl Fn(f64) -> Share + Sync,
+    share: impl Fn(f64) -> (Vec<f64>, f64, f64) + Sync,
 ) -> Result<DiffractionTable, DiffractionError> {
     shape.check()?;
     let weights = match &shape.channels {
-        Channels::Rgb(light) => Some(light.srgb_weights(&shape.wavelengths_nm, spectra)?),
+        Channels::Rgb(light) => Some(light.srgb_weights(&shape.wavelengths_nm, spectra)?.weights),
         Channels::Spectral => None,
     };
     let [x, y] = shape.axes();
-    let texels = x.count * y.count;
-    let area = 4.0 * shape.extent * shape.extent / texels as f64;
-    let mut table = DiffractionTable {
-        grid: Grid {
-            axes: vec![x, y],
-            channels: Vec::new(),
-            origin: format!("diffraction of {origin}"),
-        },
-        wavelengths_nm: shape.wavelengths_nm.clone(),
-        total: Vec::new(),
-        inside: Vec::new(),
-        evanescent: Vec::new(),
-    };
-    let mut rgb = vec![vec![0.0; texels]; 3];
+    let count = x.count * y.count;
+    let area = 4.0 * shape.extent * shape.extent / count as f64;
     let channel = |name: String, values: &[f64]| {
         GridChannel::new(name, "sr^-1", values.iter().map(|p| (p / area) as f32).collect())
     };
-    for (batch, wavelengths) in shape.wavelengths_nm.chunks(BATCH).enumerate() {
-        let shares: Vec<Share> = wavelengths.par_iter().map(|w| share(*w)).collect();
-        for (at, (part, wavelength)) in shares.iter().zip(wavelengths).enumerate() {
-            table.total.push(part.total);
-            table.inside.push(crate::numeric::statistics::sum(part.texels.iter().copied()));
-            table.evanescent.push(part.evanescent);
-            match weights.as_ref().and_then(|w| w.weights.get(batch * BATCH + at)) {
-                None => table.grid.channels.push(channel(format!("S_{wavelength}"), &part.texels)),
+    let (mut shares, mut channels) = (Vec::new(), Vec::new());
+    let mut rgb = vec![vec![0.0; count]; 3];
+    for batch in shape.wavelengths_nm.chunks(BATCH) {
+        let found: Vec<_> = batch.par_iter().map(|wavelength| share(*wavelength)).collect();
+        for ((texels, total, evanescent), &wavelength_nm) in found.into_iter().zip(batch) {
+            match weights.as_ref().and_then(|weights| weights.get(shares.len())) {
+                None => channels.push(channel(format!("S_{wavelength_nm}"), &texels)),
                 Some(weight) => {
                     for (sums, weight) in rgb.iter_mut().zip(weight) {
-                        for (sum, p) in sums.iter_mut().zip(&part.texels) {
-                            *sum += weight * p;
-                        }
+                        sums.iter_mut().zip(&texels).for_each(|(sum, p)| *sum += weight * p);
                     }
                 }
             }
+            let inside = crate::numeric::statistics::sum(texels);
+            shares.push(PowerShares { wavelength_nm, total, inside, evanescent });
         }
     }
     if weights.is_some() {
         let names = ["R", "G", "B"].into_iter().zip(&rgb);
-        table.grid.channels = names.map(|(name, values)| channel(name.into(), values)).collect();
+        channels = names.map(|(name, values)| channel(name.into(), values)).collect();
     }
-    table.grid.check()?;
-    Ok(table)
+    let grid = Grid { axes: vec![x, y], channels, origin: format!("diffraction of {origin}") };
+    grid.check()?;
+    Ok(DiffractionTable { grid, shares })
 }
 
 /// Relative difference of two tables of one shape, in the L2 norm over all channels.
@@ -263,13 +254,7 @@ pub(super) fn at_wavelength(
     size: [usize; 2],
     extent: f64,
 ) -> (Vec<f64>, [Axis; 2]) {
-    let shape = TableShape {
-        size,
-        extent,
-        wavelengths_nm: vec![field.wavelength_nm],
-        channels: Channels::Spectral,
-    };
-    let [x, y] = shape.axes();
+    let [x, y] = TableShape::at(field.wavelength_nm, size, extent).axes();
     let [cells_x, cells_y] = field.cells();
     (gathered(&field.power, cells_x, cells_y, &x, &y), [x, y])
 }

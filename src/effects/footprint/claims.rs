@@ -5,56 +5,21 @@ use std::f64::consts::{FRAC_2_SQRT_PI, PI, TAU};
 use super::line::{Line, Mean, errors};
 use super::pixels::Footprint;
 use super::reference::{coverage, response};
-use crate::effect::claim::REPORT;
-use crate::effect::{Candidates, Claim, ClaimError, Found};
+use crate::effect::claim::Check;
+use crate::effect::{Candidates, ClaimError, Found};
 use crate::numeric::quadrature::GaussLegendre;
 
 /// Offsets per footprint.
 const OFFSETS: u32 = 400;
 
-pub(super) const CLAIMS: &[Claim<Candidates>] = &[
-    Claim {
-        name: "missing_pi",
-        place: "velinov2018 eq. 16",
-        printed: "2σ²/A_P · (1 − α) A_P exp(−s²/σ²)",
-        command: REPORT,
-        check: missing_pi,
-    },
-    Claim {
-        name: "area_blend",
-        place: "velinov2018 eq. 16, α",
-        printed: "the blending factor is a function of A_P/A_C",
-        command: REPORT,
-        check: area_blend,
-    },
-    Claim {
-        name: "small_footprints",
-        place: "velinov2018 §3.2, eq. 15",
-        printed: "eq. 15 is valid for larger footprints and overestimates for smaller ones",
-        command: REPORT,
-        check: small_footprints,
-    },
-    Claim {
-        name: "seven_times",
-        place: "velinov2018 §3.2, fig. 5",
-        printed: "low errors for the standard case of footprint areas about 7 times larger",
-        command: REPORT,
-        check: seven_times,
-    },
-    Claim {
-        name: "across",
-        place: "velinov2018 §3.2, fig. 4",
-        printed: "antialiasing is only performed along scratches",
-        command: REPORT,
-        check: across,
-    },
-    Claim {
-        name: "density",
-        place: "velinov2018 eq. 18, fig. 5",
-        printed: "overestimates for smaller ratios; for increasing size only small errors",
-        command: REPORT,
-        check: density,
-    },
+/// Checks of the claims, by name.
+pub(super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+    ("missing_pi", missing_pi),
+    ("area_blend", area_blend),
+    ("small_footprints", small_footprints),
+    ("seven_times", seven_times),
+    ("across", across),
+    ("density", density),
 ];
 
 /// Relative L2 errors of a candidate for circles of half-extents `h`.

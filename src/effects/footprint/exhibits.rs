@@ -1,14 +1,16 @@
 //! Fig. 5 of velinov2018, and errors against the half-extent and against the tilt.
 
 use super::line::{Line, Mean, errors};
-use super::pixels::{Camera, Footprint};
+use super::pixels::{Footprint, of_cameras};
 use super::reference::{coverage, response};
 use super::regions::equal_ratios;
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Cell, Figure, PrintedTable, Section};
-use crate::effect::{Candidate, Candidates, ClaimError};
+use crate::document::plot::Series;
+use crate::document::{Cell, Section};
+use crate::effect::{Candidate, Candidates, ClaimError, Exhibit};
 use crate::numeric::statistics::percentile;
 
+/// What is said of the exhibits.
+const TEXTS: &str = include_str!("exhibits.toml");
 /// Fits shown of the response, in the order of the legend.
 const RESPONSES: [&str; 7] = [
     "eq16_printed",
@@ -48,45 +50,27 @@ fn pairs(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
 fn figure_five(candidates: &Candidates) -> Result<Section, ClaimError> {
     let responses = ["eq16_printed", "eq16", "soft_chord"];
     let coverages = ["coverage_eq18", "coverage_blend_area", "coverage_soft_chord"];
-    let mut section = Section::new("Fig. 5 of velinov2018").paragraph(
-        "Response and coverage of circular footprints: exact, as printed, with the missing factor π \
-         or the missing correction for small footprints, and with a soft chord.",
-    );
-    let shown = [("response", response as Mean, responses), ("coverage", coverage, coverages)];
-    for (label, mean, fits) in shown {
+    let mut exhibit = Exhibit::of(TEXTS, "figure_five", &[]);
+    for (mean, fits) in [(response as Mean, responses), (coverage, coverages)] {
         let ratios = equal_ratios(0.1, 100.0, 121);
         let rows: Vec<_> = ratios.iter().map(|&ratio| [ratio.sqrt(), 0.0, ratio]).collect();
         let centres = Line::new(mean, &rows)?;
         let offsets: Vec<f64> = (0..=120).map(|i| 0.05 * f64::from(i)).collect();
         let rows: Vec<_> = offsets.iter().map(|&s| [10_f64.sqrt(), s, 10.0]).collect();
         let circle = Line::new(mean, &rows)?;
-        let value = PlotAxis::linear(label, "1");
-        let area = PlotAxis::log("A_P/A_C", "1");
-        let mut at_centre = Plot::new(format!("{label} at s = 0"), area, value.clone())
-            .series(Series::line("exact", pairs(&ratios, &centres.exact)).strong());
-        let offset = PlotAxis::linear("offset s", "σ");
-        let mut over_offset = Plot::new(format!("{label} at A_P/A_C = 10"), offset, value)
-            .series(Series::line("exact", pairs(&offsets, &circle.exact)).strong());
+        let mut at_centre = vec![Series::line("exact", pairs(&ratios, &centres.exact)).strong()];
+        let mut over_offset = vec![Series::line("exact", pairs(&offsets, &circle.exact)).strong()];
         for fit in fits {
             let candidate = named(candidates, fit)?;
             let values = pairs(&ratios, &candidate.values_at(&centres.points)?);
             // Eq. 18 has no bound: what is above 2 would hide the rest.
-            let within = values.into_iter().filter(|(_, v)| *v <= 2.0);
-            at_centre = at_centre.series(Series::line(fit, within));
+            at_centre.push(Series::line(fit, values.into_iter().filter(|(_, v)| *v <= 2.0)));
             let values = candidate.values_at(&circle.points)?;
-            over_offset = over_offset.series(Series::line(fit, pairs(&offsets, &values)));
+            over_offset.push(Series::line(fit, pairs(&offsets, &values)));
         }
-        let caption = format!(
-            "Mean {label} of a scratch through the centre of a circular footprint. Fig. 5 marks the \
-             ratios 1, 10 and 20. Values above 2 are not drawn."
-        );
-        section = section.block(Figure::new(format!("footprint-{label}-area"), caption, at_centre));
-        let caption =
-            format!("Mean {label} over the offset for a circle ten coherence areas large.");
-        section =
-            section.block(Figure::new(format!("footprint-{label}-offset"), caption, over_offset));
+        exhibit = exhibit.figure(at_centre).figure(over_offset);
     }
-    Ok(section)
+    Ok(exhibit.section())
 }
 
 fn against_half_extent_and_tilt(candidates: &Candidates) -> Result<Section, ClaimError> {
@@ -99,42 +83,25 @@ fn against_half_extent_and_tilt(candidates: &Candidates) -> Result<Section, Clai
         .map(|tilt| Footprint::new(0.7, tilt.to_radians(), 0.0))
         .map(|f| (f.half_extent, f.area_ratio()))
         .collect();
-    let against = |stem, caption, title, x, over, footprints, mean, fits: &[&str]| {
+    let against = |over, footprints, mean, fits: &[&str]| {
         let lines = Line::all(mean, footprints, 96)?;
-        let mut plot = Plot::new(title, x, PlotAxis::log("relative L2 error", "1"));
-        for fit in fits {
-            let series = Series::line(*fit, pairs(over, &errors(named(candidates, fit)?, &lines)?));
-            let strong = fit.ends_with("soft_chord");
-            plot = plot.series(if strong { series.strong() } else { series });
-        }
-        Ok::<_, ClaimError>(Figure::new(stem, caption, plot))
+        let curve = |fit: &&str| {
+            let errors = errors(named(candidates, fit)?, &lines)?;
+            let series = Series::line(*fit, pairs(over, &errors));
+            Ok(if fit.ends_with("soft_chord") { series.strong() } else { series })
+        };
+        fits.iter().map(curve).collect::<Result<Vec<_>, ClaimError>>()
     };
-    let circular = |stem, title, mean, fits| {
-        let caption = "Over the offsets of a circular footprint, to 4.5σ past its rim.";
-        against(stem, caption, title, PlotAxis::log("half-extent h", "σ"), &h, &circles, mean, fits)
-    };
-    Ok(Section::new("Error against half-extent and tilt")
-        .paragraph(
-            "The exact mean depends on the half-extent across the scratch alone: the tilt along it \
-             changes only what forms that look at the area make of it.",
-        )
-        .block(circular("footprint-error-response", "Response", response, &RESPONSES)?)
-        .block(circular("footprint-error-coverage", "Coverage", coverage, &COVERAGES)?)
-        .block(against(
-            "footprint-error-tilt",
-            "A footprint of 0.7σ across the scratch, tilted along it: h stays, A_P grows.",
-            "Response, tilted",
-            PlotAxis::linear("tilt", "°"),
-            &tilts,
-            &tilted,
-            response,
-            &RESPONSES,
-        )?))
+    Ok(Exhibit::of(TEXTS, "half_extent_and_tilt", &[])
+        .figure(against(&h, &circles, response, &RESPONSES)?)
+        .figure(against(&h, &circles, coverage, &COVERAGES)?)
+        .figure(against(&tilts, &tilted, response, &RESPONSES)?)
+        .section())
 }
 
 fn cameras(candidates: &Candidates) -> Result<Section, ClaimError> {
     let pixels: Vec<(f64, f64)> =
-        Camera::seeded(45).take(300).map(|f| (f.half_extent, f.area_ratio())).collect();
+        of_cameras(45).take(300).map(|f| (f.half_extent, f.area_ratio())).collect();
     let mut rows = Vec::new();
     for (mean, fits) in
         [(response as Mean, RESPONSES.as_slice()), (coverage as Mean, COVERAGES.as_slice())]
@@ -147,11 +114,5 @@ fn cameras(candidates: &Candidates) -> Result<Section, ClaimError> {
             rows.push(row);
         }
     }
-    let columns = [("fit", ""), ("median", "1"), ("95 %", "1"), ("worst", "1")];
-    Ok(Section::new("Pixels of cameras")
-        .paragraph(
-            "300 pixels as in the region `camera`, other draws: relative L2 error over the offsets \
-             of each.",
-        )
-        .block(PrintedTable::of_rows("Relative L2 error per pixel", columns, rows)))
+    Ok(Exhibit::of(TEXTS, "cameras", &[]).table(rows).section())
 }

@@ -1,96 +1,20 @@
 //! Properties that a mean over a footprint has, whatever the error of a form.
 
-use super::hard_cases::{HALF_EXTENTS, offsets};
-use super::regions::table;
-use crate::effect::{FormValues, Law};
+use super::regions::{HALF_EXTENTS, hard_offsets, table};
+use crate::effect::{FormValues, Law, Violation};
 
-/// References of infinite scratches.
-const INFINITE: &[&str] = &["footprint_response", "footprint_coverage"];
-
-/// Laws of the effect.
-pub(super) const LAWS: &[Law] = &[
-    Law {
-        name: "even",
-        description: "the mean depends on |s|: largest |g(h, s) - g(h, -s)| over the hard cases, \
-                      0 to the bit",
-        violation: oddness,
-        references: INFINITE,
-        ..Law::EMPTY
-    },
-    Law {
-        name: "range",
-        description: "a mean of values in [0, 1] is in [0, 1]: largest excess over h to 1000. The \
-                      tolerance is 1 %: fitted constants may pass 1 by their own error at h = 0",
-        violation: excess,
-        tolerance: 0.01,
-        references: INFINITE,
-        known_violations: &[
-            ("footprint/eq16", THIN),
-            ("footprint/eq16_printed", THIN),
-            ("footprint/blend_half_extent", "1.27 at h = 0.5, s = 0: the chord exceeds 1"),
-            ("footprint/coverage_blend_half_extent", "the chord exceeds 1 below h = 1.6"),
-            ("footprint/soft_chord_camera", CAMERA),
-            ("footprint/blend_area", THIN),
-            ("footprint/coverage_blend_area", "the chord exceeds 1 below h = 1.6"),
-            ("footprint/coverage_eq18", "1.6/h at s = 0, without bound for small footprints"),
-        ],
-    },
-    Law {
-        name: "falls",
-        description: "the mean falls with |s|: largest rise over 400 steps to h + 6. The tolerance \
-                      is 4 ulp of 1 in f32",
-        violation: largest_rise,
-        tolerance: 5e-7,
-        references: INFINITE,
-        ..Law::EMPTY
-    },
-    Law {
-        name: "point footprint",
-        description: "for h -> 0 the response is exp(-s^2): largest difference at h = 0 and 0.001. \
-                      The tolerance is 1 %",
-        violation: |form| point_footprint(form, 1.0),
-        tolerance: 0.01,
-        references: &["footprint_response"],
-        known_violations: &[
-            ("footprint/eq16_printed", "1/pi of it: the missing factor pi"),
-            ("footprint/soft_chord_camera", CAMERA),
-        ],
-    },
-    Law {
-        name: "point footprint (coverage)",
-        description: "for h -> 0 the coverage is exp(-s^2/2): largest difference at h = 0 and \
-                      0.001. The tolerance is 1 %",
-        violation: |form| point_footprint(form, 0.5),
-        tolerance: 0.01,
-        references: &["footprint_coverage"],
-        known_violations: &[("footprint/coverage_eq18", "1.6/h, and 0 beside the footprint")],
-    },
-    Law {
-        name: "large footprint",
-        description: "for large h the response is 2/(sqrt(pi) h) times the chord: largest relative \
-                      difference for |s| <= 0.9 h, h = 1000 and 5000. The tolerance is 0.5 %",
-        violation: |form| large_footprint(form, std::f64::consts::FRAC_2_SQRT_PI),
-        tolerance: 0.005,
-        references: &["footprint_response"],
-        known_violations: &[("footprint/matched_gaussian", GAUSSIAN)],
-    },
-    Law {
-        name: "large footprint (coverage)",
-        description: "for large h the coverage is sqrt(8/pi)/h times the chord: largest relative \
-                      difference for |s| <= 0.9 h, h = 1000 and 5000. The tolerance is 0.5 %",
-        violation: |form| large_footprint(form, (8.0 / std::f64::consts::PI).sqrt()),
-        tolerance: 0.005,
-        references: &["footprint_coverage"],
-        known_violations: &[("footprint/coverage_matched_gaussian", GAUSSIAN)],
-    },
+/// Laws of the effect, by name.
+pub(super) const LAWS: &[(&str, Violation)] = &[
+    ("even", oddness),
+    ("range", excess),
+    ("falls", largest_rise),
+    ("point footprint", |form| point_footprint(form, 1.0)),
+    ("point footprint (coverage)", |form| point_footprint(form, 0.5)),
+    ("large footprint", |form| large_footprint(form, std::f64::consts::FRAC_2_SQRT_PI)),
+    ("large footprint (coverage)", |form| {
+        large_footprint(form, (8.0 / std::f64::consts::PI).sqrt())
+    }),
 ];
-
-const THIN: &str = "a thin footprint of large area: alpha is 1 and the chord exceeds 1";
-
-const CAMERA: &str = "fitted where cameras are, which see few footprints below h = 0.3";
-
-const GAUSSIAN: &str =
-    "a Gaussian stays one: 25 % too high at the centre of a chord, 44 % off at 0.9 h";
 
 /// Values at (h, s), where A_P/A_C counts of a circle and of an ellipse 8 times as long as wide.
 fn values(form: FormValues<'_>, h: &[f32], s: &[f32]) -> [Vec<f32>; 2] {
@@ -102,7 +26,7 @@ fn values(form: FormValues<'_>, h: &[f32], s: &[f32]) -> [Vec<f32>; 2] {
 }
 
 fn hard_points() -> (Vec<f32>, Vec<f32>) {
-    let pairs = HALF_EXTENTS.iter().flat_map(|&h| offsets(h).into_iter().map(move |s| (h, s)));
+    let pairs = HALF_EXTENTS.iter().flat_map(|&h| hard_offsets(h).into_iter().map(move |s| (h, s)));
     pairs.map(|(h, s)| (h as f32, s as f32)).unzip()
 }
 
@@ -166,33 +90,27 @@ fn largest(
 
 #[cfg(test)]
 mod tests {
-    use super::super::reference::response;
-    use super::*;
+    use super::super::EFFECT;
+    use super::super::line::Mean;
+    use super::super::reference::{coverage, response};
+    use crate::effects::assert_laws_bite;
     use crate::table::Table;
 
-    fn exact(points: &Table) -> Vec<f32> {
+    fn exact(points: &Table, mean: Mean) -> Vec<f32> {
         let [h, s] = [0, 1].map(|at| points.columns[at].values.iter());
-        h.zip(s).map(|(&h, &s)| response(h, s).expect("in the domain") as f32).collect()
+        h.zip(s).map(|(&h, &s)| mean(h, s).expect("in the domain") as f32).collect()
     }
 
     #[test]
-    fn the_exact_response_keeps_every_law() {
-        for law in LAWS.iter().filter(|law| law.references.contains(&"footprint_response")) {
-            let violation = (law.violation)(&exact);
-            println!("{}: {violation:e}", law.name);
-            assert!(violation <= law.tolerance, "{}: {violation:e}", law.name);
-        }
-    }
-
-    #[test]
-    fn forms_that_break_them_are_found() {
+    fn the_exact_means_keep_every_law_and_others_are_found() {
         let tilted = |points: &Table| {
             points.columns[1].values.iter().map(|s| (1.1 + 0.1 * s) as f32).collect()
         };
-        for law in LAWS {
-            assert!((law.violation)(&tilted) > law.tolerance, "{}", law.name);
-            assert!((law.violation)(&|_| vec![f32::NAN]) > law.tolerance, "{}", law.name);
-            assert!((law.violation)(&|_| Vec::new()) > law.tolerance, "{}", law.name);
+        for (reference, mean) in
+            [("footprint_response", response as Mean), ("footprint_coverage", coverage)]
+        {
+            let laws = EFFECT.laws.iter().filter(|law| law.references.contains(&reference));
+            assert_laws_bite(laws, &|points| exact(points, mean), &tilted);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::regions::{offsets, table};
+use super::regions::{spaced_offsets, table};
 use crate::effect::{Candidate, DomainError};
 use crate::form::FormError;
 use crate::numeric::statistics::relative_l2;
@@ -32,7 +32,7 @@ impl Line {
         count: u32,
     ) -> Result<Vec<Self>, DomainError> {
         let of = |&(h, area_ratio): &(f64, f64)| {
-            let rows: Vec<_> = offsets(h, count, 0.5).map(|s| [h, s, area_ratio]).collect();
+            let rows: Vec<_> = spaced_offsets(h, count, 0.5).map(|s| [h, s, area_ratio]).collect();
             Self::new(mean, &rows)
         };
         footprints.par_iter().map(of).collect()

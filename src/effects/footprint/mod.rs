@@ -46,7 +46,6 @@
 mod claims;
 mod end;
 mod exhibits;
-mod hard_cases;
 mod laws;
 mod line;
 mod pixels;
@@ -56,102 +55,37 @@ mod regions;
 pub use end::{ScratchEnd, response_at_end};
 pub use reference::{coverage, response};
 
+use std::sync::LazyLock;
+
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{Effect, Evaluate, FormText, Goal, Quantity, Reference, arguments};
+use crate::effect::{Effect, FormText, Functions, Scalar, arguments};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/footprint/forms");
 
 /// The effect, as registered.
-pub const EFFECT: Effect = Effect {
-    name: "footprint",
-    title: "Camera footprint",
-    description: "What a pixel sees of a scratch: the means of the scratch's response and of its \
-                  area density over the ellipse of surface that the pixel covers. A renderer takes \
-                  both once per scratch and pixel; they make thin scratches connected lines \
-                  instead of dotted ones.",
-    references: &[RESPONSE, COVERAGE, END],
-    forms: || FormText::embedded("src/effects/footprint/forms", &FORMS),
-    regions: regions::REGIONS,
-    hard_cases: hard_cases::HARD_CASES,
-    laws: laws::LAWS,
-    goals: &[
-        Goal {
-            fit: "footprint/soft_chord",
-            region: "every half-extent",
-            error: 0.02,
-            cost: 2.0,
-            why: "2 % over the offset for every half-extent from 0.05 to 30, at no more than twice \
-                  the corrected eq. 16",
-        },
-        Goal {
-            fit: "footprint/coverage_soft_chord",
-            region: "every half-extent",
-            error: 0.02,
-            cost: 2.0,
-            why: "the same for the coverage, at no more than twice eq. 18 blended as eq. 16 is",
-        },
-    ],
-    baselines: &["footprint/eq16", "footprint/coverage_blend_area", "footprint/end_contained"],
-    claims: claims::CLAIMS,
-    exhibits: exhibits::exhibits,
-    ..Effect::EMPTY
-};
+pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
+    let functions = Functions {
+        forms: || FormText::embedded("src/effects/footprint/forms", &FORMS),
+        references: REFERENCES,
+        regions: regions::REGIONS,
+        hard_cases: regions::HARD_CASES,
+        laws: laws::LAWS,
+        claims: claims::CLAIMS,
+        exhibits: exhibits::exhibits,
+        ..Functions::NONE
+    };
+    Effect::of_text(include_str!("effect.toml"), functions)
+});
 
-const H: Quantity = Quantity { name: "h", unit: "1", domain: "[0, 1e4]" };
-const S: Quantity = Quantity { name: "s", unit: "1", domain: "any finite" };
-
-const RESPONSE: Reference = Reference {
-    name: "footprint_response",
-    description: "mean of exp(-s^2) over an ellipse of half-extent h across the scratch, centred at \
-                  the offset s, both over sigma",
-    arguments: &[H, S],
-    unit: "1",
-    accuracy: "relative error <= 1e-10 for h <= 1000 where the value exceeds 1e-300 \
-               (tests/footprint.rs)",
-    source: "velinov2018 eq. 10 and 13, integrated exactly",
-    evaluate: Evaluate::Scalar(|point| {
-        let [h, s] = arguments(point)?;
-        response(h, s)
-    }),
-};
-
-const COVERAGE: Reference = Reference {
-    name: "footprint_coverage",
-    description: "mean of exp(-s^2/2) over an ellipse of half-extent h across the scratch, centred \
-                  at the offset s, both over sigma",
-    arguments: &[H, S],
-    unit: "1",
-    accuracy: "relative error <= 1e-10 for h <= 1000 where the value exceeds 1e-300 \
-               (tests/footprint.rs)",
-    source: "velinov2018 eq. 17 and 18, integrated exactly",
-    evaluate: Evaluate::Scalar(|point| {
-        let [h, s] = arguments(point)?;
-        coverage(h, s)
-    }),
-};
-
-const SIGNED: &str = "[-1e4, 1e4]";
-
-const END: Reference = Reference {
-    name: "footprint_end",
-    description: "mean over an ellipse of the response of a scratch that begins inside it, over that \
-                  of an infinite scratch through the point",
-    arguments: &[
-        Quantity { name: "half_extent", unit: "1", domain: "[0, 1e4]" },
-        Quantity { name: "half_length", unit: "1", domain: "[0, 1e4]" },
-        Quantity { name: "shear", unit: "1", domain: SIGNED },
-        Quantity { name: "offset", unit: "1", domain: "any finite" },
-        Quantity { name: "end", unit: "1", domain: "any finite" },
-    ],
-    unit: "1",
-    accuracy: "error <= 1e-9 of footprint_response (tests/footprint.rs)",
-    source: "velinov2018 eq. 5 with xi_1 = 0, integrated over the footprint",
-    evaluate: Evaluate::Scalar(|point| {
+const REFERENCES: &[(&str, Scalar)] = &[
+    ("footprint_response", |point| arguments(point).and_then(|[h, s]| response(h, s))),
+    ("footprint_coverage", |point| arguments(point).and_then(|[h, s]| coverage(h, s))),
+    ("footprint_end", |point| {
         let [half_extent, half_length, shear, offset, end] = arguments(point)?;
         response_at_end(ScratchEnd { half_extent, half_length, shear, offset, end })
     }),
-};
+];
 
 #[cfg(test)]
 mod tests;

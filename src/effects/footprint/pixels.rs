@@ -49,34 +49,20 @@ impl Footprint {
 /// A seeded stream of footprints: distances of 0.2 to 20 m in equal ratios, tilts of 0 to 89°, 720
 /// to 2160 rows over fields of view of 20 to 90°, scratches in every direction, and σ of 60 µm
 /// for half of them, 20 to 120 µm in equal ratios for the others.
-pub(super) struct Camera(ChaCha12Rng);
-
-impl Camera {
-    pub(super) fn seeded(seed: u64) -> Self {
-        Self(ChaCha12Rng::seed_from_u64(seed))
-    }
-}
-
-impl Iterator for Camera {
-    type Item = Footprint;
-
-    fn next(&mut self) -> Option<Footprint> {
-        let rng = &mut self.0;
-        loop {
-            let distance_um = 0.2e6 * 100_f64.powf(rng.random());
-            let tilt = rng.random_range(0.0..89.0_f64).to_radians();
-            let rows = [720.0, 1080.0, 1440.0, 2160.0][rng.random_range(0..4)];
-            let field_of_view = rng.random_range(20.0..90.0_f64).to_radians();
-            let other_sigma = 20.0 * 6_f64.powf(rng.random());
-            let sigma_um = if rng.random() { 60.0 } else { other_sigma };
-            let angle = rng.random_range(0.0..TAU);
-            let across = distance_um * (0.5 * field_of_view).tan() / rows / sigma_um;
-            let footprint = Footprint::new(across, tilt, angle);
-            if footprint.half_extent <= LARGEST_HALF_EXTENT {
-                return Some(footprint);
-            }
-        }
-    }
+pub(super) fn of_cameras(seed: u64) -> impl Iterator<Item = Footprint> {
+    let mut rng = ChaCha12Rng::seed_from_u64(seed);
+    let all = std::iter::repeat_with(move || {
+        let distance_um = 0.2e6 * 100_f64.powf(rng.random());
+        let tilt = rng.random_range(0.0..89.0_f64).to_radians();
+        let rows = [720.0, 1080.0, 1440.0, 2160.0][rng.random_range(0..4)];
+        let field_of_view = rng.random_range(20.0..90.0_f64).to_radians();
+        let other_sigma = 20.0 * 6_f64.powf(rng.random());
+        let sigma_um = if rng.random() { 60.0 } else { other_sigma };
+        let angle = rng.random_range(0.0..TAU);
+        let across = distance_um * (0.5 * field_of_view).tan() / rows / sigma_um;
+        Footprint::new(across, tilt, angle)
+    });
+    all.filter(|footprint| footprint.half_extent <= LARGEST_HALF_EXTENT)
 }
 
 #[cfg(test)]

@@ -91,27 +91,15 @@ pub(super) fn mean_across(
 
 /// A length in [0, [`LARGEST`]].
 pub(super) fn length(quantity: &'static str, got: f64) -> Result<f64, DomainError> {
-    if (0.0..=LARGEST).contains(&got) {
-        Ok(got)
-    } else {
-        Err(DomainError { quantity, expected: "[0, 1e4]", got })
-    }
+    DomainError::unless((0.0..=LARGEST).contains(&got), quantity, got, "[0, 1e4]")
 }
 
 /// A number in [−[`LARGEST`], [`LARGEST`]].
 pub(super) fn signed_length(quantity: &'static str, got: f64) -> Result<f64, DomainError> {
-    if got.abs() <= LARGEST {
-        Ok(got)
-    } else {
-        Err(DomainError { quantity, expected: "[-1e4, 1e4]", got })
-    }
+    DomainError::unless(got.abs() <= LARGEST, quantity, got, "[-1e4, 1e4]")
 }
 
 /// Any finite number.
 pub(super) fn finite(quantity: &'static str, got: f64) -> Result<f64, DomainError> {
-    if got.is_finite() {
-        Ok(got)
-    } else {
-        Err(DomainError { quantity, expected: "any finite", got })
-    }
+    DomainError::unless(got.is_finite(), quantity, got, "any finite")
 }

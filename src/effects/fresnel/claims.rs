@@ -1,6 +1,7 @@
 //! What is printed about these approximations, beside what is found.
 
-use crate::effect::{Candidates, Claim, ClaimError, Found};
+use crate::effect::claim::Check;
+use crate::effect::{Candidates, ClaimError, Found};
 use crate::effects::fresnel::reference::{Reflectance, conductor};
 
 /// Karis' constants, as printed: 2^((A mu − B) mu).
@@ -10,29 +11,11 @@ const TRANSPOSED_A: f64 = -5.55437;
 /// Half of what an 8-bit channel resolves.
 const HALF_STEP: f64 = 0.5 / 255.0;
 
-pub(super) const CLAIMS: &[Claim<Candidates>] = &[
-    Claim {
-        name: "spherical_gaussian",
-        place: "Karis, Real Shading in Unreal Engine 4 (2013), Fresnel",
-        printed: "2^((-5.55473 mu - 6.98316) mu) for (1 - mu)^5: the difference is imperceptible",
-        command: "striae fit fresnel/spherical_gaussian_weight",
-        check: spherical_gaussian,
-    },
-    Claim {
-        name: "transposition",
-        place: "three.js before PR #7625",
-        printed: "-5.55437 in place of -5.55473",
-        command: "striae check",
-        check: transposition,
-    },
-    Claim {
-        name: "high_index",
-        place: "Gulbrandsen, Artist friendly metallic Fresnel (2014), listing",
-        printed: "r_s = (n^2 + k^2 - 2 n c + c^2)/(n^2 + k^2 + 2 n c + c^2), and r_p alike, as the \
-                  reflectance of a conductor",
-        command: "striae fit fresnel/gulbrandsen fresnel/gulbrandsen_exact",
-        check: high_index,
-    },
+/// Checks of the claims, by name.
+pub(super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+    ("spherical_gaussian", spherical_gaussian),
+    ("transposition", transposition),
+    ("high_index", high_index),
 ];
 
 /// Cosines at which differences are searched.

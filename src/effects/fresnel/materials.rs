@@ -71,15 +71,12 @@ fn failure(error: impl std::fmt::Display) -> FamilyError {
 fn at_wavelengths(record: &OpticalConstants, held_out: bool) -> Result<Vec<Member>, FamilyError> {
     let (first, last) = record.range_nm();
     let covered = WAVELENGTHS_NM.into_iter().filter(|nm| (first..=last).contains(&f64::from(*nm)));
-    covered
-        .map(|nm| {
-            let index = index_at(record, f64::from(nm))?;
-            let mu = cosines(held_out, &[pseudo_brewster(index)]);
-            let curve = |mu: f64| reflectance(record, mu, index);
-            let value = mu.iter().map(|mu| curve(*mu)).collect::<Result<Vec<_>, _>>()?;
-            Ok(member(record, &format!("{nm}nm"), mu, value, [curve(1.0)?, curve(MU_EDGE)?]))
-        })
-        .collect()
+    let at = |nm: u16| {
+        let (band, nm) = (format!("{nm}nm"), f64::from(nm));
+        let index = index_at(record, nm)?;
+        in_bands(record, held_out, &[(&band, nm)], |mu| Ok([reflectance(record, mu, index)?]))
+    };
+    Ok(covered.map(at).collect::<Result<Vec<_>, _>>()?.concat())
 }
 
 /// Members in R, G and B, if the record covers the visible range.
@@ -96,29 +93,30 @@ fn in_channels(
         (380..=780).step_by(5).map(f64::from).filter(|nm| (first..=last).contains(nm)).collect();
     let weights = spectra.linear_srgb_weights(&nodes).map_err(failure)?;
     let at_nodes = nodes.iter().map(|nm| index_at(record, *nm)).collect::<Result<Vec<_>, _>>()?;
-    let colour = |mu: f64| -> Result<[f64; 3], FamilyError> {
-        let spectrum = at_nodes
-            .iter()
-            .map(|index| reflectance(record, mu, *index))
-            .collect::<Result<Vec<_>, _>>()?;
-        Ok(weights.linear_srgb(&spectrum))
-    };
+    in_bands(record, held_out, &CHANNELS, |mu| {
+        let spectrum = at_nodes.iter().map(|index| reflectance(record, mu, *index));
+        Ok(weights.linear_srgb(&spectrum.collect::<Result<Vec<_>, _>>()?))
+    })
+}
 
-    let dips = CHANNELS
-        .iter()
-        .map(|(_, nm)| Ok(pseudo_brewster(index_at(record, *nm)?)))
-        .collect::<Result<Vec<_>, FamilyError>>()?;
+/// A member per band, each with the wavelength whose pseudo-Brewster angle is held out; `reflectances` are
+/// those of the bands at a cosine.
+fn in_bands<const N: usize>(
+    record: &OpticalConstants,
+    held_out: bool,
+    bands: &[(&str, f64); N],
+    reflectances: impl Fn(f64) -> Result<[f64; N], FamilyError>,
+) -> Result<Vec<Member>, FamilyError> {
+    let dip = |(_, nm): &(&str, f64)| Ok(pseudo_brewster(index_at(record, *nm)?));
+    let dips = bands.iter().map(dip).collect::<Result<Vec<_>, FamilyError>>()?;
     let mu = cosines(held_out, &dips);
-    let colours = mu.iter().map(|mu| colour(*mu)).collect::<Result<Vec<_>, _>>()?;
-    let (normal, edge) = (colour(1.0)?, colour(MU_EDGE)?);
-    Ok(CHANNELS
-        .iter()
-        .enumerate()
-        .map(|(channel, (band, _))| {
-            let value = colours.iter().map(|colour| colour[channel]).collect();
-            member(record, band, mu.clone(), value, [normal[channel], edge[channel]])
-        })
-        .collect())
+    let curves = mu.iter().map(|mu| reflectances(*mu)).collect::<Result<Vec<_>, _>>()?;
+    let (normal, edge) = (reflectances(1.0)?, reflectances(MU_EDGE)?);
+    let of = |(at, (band, _)): (usize, &(&str, f64))| {
+        let value = curves.iter().map(|values| values[at]).collect();
+        member(record, band, mu.clone(), value, [normal[at], edge[at]])
+    };
+    Ok(bands.iter().enumerate().map(of).collect())
 }
 
 /// The index at a wavelength, as (n, k).

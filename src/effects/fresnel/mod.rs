@@ -35,92 +35,42 @@
 //! `rational_tied` makes use of that.
 
 mod claims;
-mod hard_cases;
 mod laws;
 pub mod materials;
 pub mod reference;
+mod regions;
+
+use std::sync::LazyLock;
 
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{Effect, Evaluate, FormText, Quantity, Reference, Region, arguments};
-use crate::table::{Column, Table};
+use crate::effect::{Effect, FormText, Functions, Scalar, arguments};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/fresnel/forms");
 
 /// The effect, as registered.
-pub const EFFECT: Effect = Effect {
-    name: "fresnel",
-    title: "Fresnel reflectance",
-    description: "How much light a smooth interface reflects, against the angle of incidence: the \
-                  colour of a metal and of its edges, the sheen of glass. Every microfacet model \
-                  evaluates it once per light and colour channel.",
-    references: &[CONDUCTOR, DIELECTRIC, SCHLICK_WEIGHT],
-    forms: || FormText::embedded("src/effects/fresnel/forms", &FORMS),
-    families: &[materials::FAMILY],
-    regions: &[ALL_ANGLES],
-    hard_cases: &[hard_cases::HARD_CASES],
-    laws: laws::LAWS,
-    baselines: &["fresnel/schlick"],
-    claims: claims::CLAIMS,
-    ..Effect::EMPTY
-};
+pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
+    let functions = Functions {
+        forms: || FormText::embedded("src/effects/fresnel/forms", &FORMS),
+        references: REFERENCES,
+        families: &[materials::FAMILY],
+        regions: regions::REGIONS,
+        hard_cases: regions::HARD_CASES,
+        laws: laws::LAWS,
+        claims: claims::CLAIMS,
+        ..Functions::NONE
+    };
+    Effect::of_text(include_str!("effect.toml"), functions)
+});
 
-const MU: Quantity = Quantity { name: "mu", unit: "1", domain: "[0, 1]" };
-
-const CONDUCTOR: Reference = Reference {
-    name: "fresnel_conductor",
-    description: "unpolarised power reflectance of a smooth conductor of index n + ik",
-    arguments: &[
-        MU,
-        Quantity { name: "n", unit: "1", domain: "(0, 1e30]" },
-        Quantity { name: "k", unit: "1", domain: "[0, 1e30]" },
-    ],
-    unit: "1",
-    accuracy: "relative error <= 1e-13 (tests/fresnel.rs; 1.8e-15 at most against mpmath)",
-    source: "Born & Wolf, Principles of Optics, 1.5.2 and 14.2",
-    evaluate: Evaluate::Scalar(|point| {
+const REFERENCES: &[(&str, Scalar)] = &[
+    ("fresnel_conductor", |point| {
         let [mu, n, k] = arguments(point)?;
         reference::conductor(mu, n, k).map(reference::Reflectance::mean)
     }),
-};
-
-const DIELECTRIC: Reference = Reference {
-    name: "fresnel_dielectric",
-    description: "unpolarised power reflectance between two dielectrics, eta = n_far/n_near",
-    arguments: &[MU, Quantity { name: "eta", unit: "1", domain: "(0, 1e30]" }],
-    unit: "1",
-    accuracy: "relative error <= 1e-13 (tests/fresnel.rs; 1.8e-15 at most against mpmath)",
-    source: "Born & Wolf, Principles of Optics, 1.5.2 to 1.5.4",
-    evaluate: Evaluate::Scalar(|point| {
+    ("fresnel_dielectric", |point| {
         let [mu, eta] = arguments(point)?;
         reference::dielectric(mu, eta).map(reference::Reflectance::mean)
     }),
-};
-
-const SCHLICK_WEIGHT: Reference = Reference {
-    name: "schlick_weight",
-    description: "weight (1 - mu)^5 of the edge colour in Schlick's approximation",
-    arguments: &[MU],
-    unit: "1",
-    accuracy: "relative error <= 1e-15 (five roundings)",
-    source: "Schlick, Computer Graphics Forum 13(3), 1994, eq. 15",
-    evaluate: Evaluate::Scalar(|point| {
-        let [mu] = arguments(point)?;
-        reference::schlick_weight(mu)
-    }),
-};
-
-/// Forms that take F₀ are judged on the held-out points of their family; only the weight, which
-/// takes mu alone, has a region.
-const ALL_ANGLES: Region = Region {
-    name: "[0, 1]",
-    description: "every cosine of incidence, evenly, off the fitted points, and down to 1e-4",
-    points: || {
-        let even = (0..1000).map(|i| (f64::from(i) + 0.5) / 1000.0);
-        let grazing = (0..=12).map(|i| 10f64.powf(-4.0 + f64::from(i) / 4.0));
-        let mu = even.chain(grazing).chain([0.0, 1.0]).collect();
-        let columns = vec![Column::new("mu", "1", mu)];
-        Table { columns, origin: "region [0, 1] of fresnel".into() }
-    },
-    ..Region::EMPTY
-};
+    ("schlick_weight", |point| arguments(point).and_then(|[mu]| reference::schlick_weight(mu))),
+];

@@ -67,9 +67,9 @@ impl Reflectance {
 /// # Errors
 /// [`DomainError`] for an argument outside its domain or not finite.
 pub fn conductor(mu: f64, n: f64, k: f64) -> Result<Reflectance, DomainError> {
-    within("mu", mu, "[0, 1]", (0.0..=1.0).contains(&mu))?;
-    within("n", n, "(0, 1e30]", n > 0.0 && n <= LARGEST_INDEX)?;
-    within("k", k, "[0, 1e30]", (0.0..=LARGEST_INDEX).contains(&k))?;
+    DomainError::unless((0.0..=1.0).contains(&mu), "mu", mu, "[0, 1]")?;
+    DomainError::unless(n > 0.0 && n <= LARGEST_INDEX, "n", n, "(0, 1e30]")?;
+    DomainError::unless((0.0..=LARGEST_INDEX).contains(&k), "k", k, "[0, 1e30]")?;
     Ok(reflectance(mu, n, k))
 }
 
@@ -86,8 +86,8 @@ pub fn conductor(mu: f64, n: f64, k: f64) -> Result<Reflectance, DomainError> {
 /// # Errors
 /// [`DomainError`] for an argument outside its domain or not finite.
 pub fn dielectric(mu: f64, eta: f64) -> Result<Reflectance, DomainError> {
-    within("mu", mu, "[0, 1]", (0.0..=1.0).contains(&mu))?;
-    within("eta", eta, "(0, 1e30]", eta > 0.0 && eta <= LARGEST_INDEX)?;
+    DomainError::unless((0.0..=1.0).contains(&mu), "mu", mu, "[0, 1]")?;
+    DomainError::unless(eta > 0.0 && eta <= LARGEST_INDEX, "eta", eta, "(0, 1e30]")?;
     Ok(reflectance(mu, eta, 0.0))
 }
 
@@ -100,19 +100,10 @@ pub fn dielectric(mu: f64, eta: f64) -> Result<Reflectance, DomainError> {
 /// # Errors
 /// [`DomainError`] if `mu` is outside [0, 1] or not finite.
 pub fn schlick_weight(mu: f64) -> Result<f64, DomainError> {
-    within("mu", mu, "[0, 1]", (0.0..=1.0).contains(&mu))?;
+    DomainError::unless((0.0..=1.0).contains(&mu), "mu", mu, "[0, 1]")?;
     let grazing = 1.0 - mu;
     let square = grazing * grazing;
     Ok(square * square * grazing)
-}
-
-fn within(
-    quantity: &'static str,
-    got: f64,
-    expected: &'static str,
-    inside: bool,
-) -> Result<(), DomainError> {
-    if inside { Ok(()) } else { Err(DomainError { quantity, expected, got }) }
 }
 
 /// The equations of the module's text, for arguments inside their domains.

@@ -5,79 +5,25 @@ use std::f64::consts::PI;
 use super::amplitude::depth_factor;
 use super::ensemble::{Base, Model, PUBLISHED, REFERENCE};
 use super::exhibits::{
-    DepthPhase, EnergyStudy, EnsembleStudy, Sampling, energy_ratio, response_errors,
+    DepthPhase, EnergyStudy, EnsembleStudy, Sampling, Seen, energy_ratio, response_errors,
     side_lobe_energy,
 };
 use super::surface::{Coherence, Directions, StraightScratch, mirror_amplitude};
-use crate::effect::claim::REPORT;
-use crate::effect::{Candidates, Claim, ClaimError, Found};
+use crate::effect::claim::Check;
+use crate::effect::{Candidates, ClaimError, Found};
 use crate::numeric::statistics::{percentile, relative_l2};
 
-pub(super) const CLAIMS: &[Claim<Candidates>] = &[
-    Claim {
-        name: "side_lobes",
-        place: "velinov2018 fig. 3",
-        printed: "the small-angle phase underestimates the diffraction of side lobes",
-        command: REPORT,
-        check: side_lobes,
-    },
-    Claim {
-        name: "envelope",
-        place: "velinov2018 fig. 3",
-        printed: "closely preserve the envelope shape of the scattering function",
-        command: REPORT,
-        check: envelope,
-    },
-    Claim {
-        name: "small_angles",
-        place: "velinov2018 eq. 4",
-        printed: "D = 1 - exp(i 4 pi D/lambda), approximated for small angles",
-        command: REPORT,
-        check: small_angles,
-    },
-    Claim {
-        name: "blend",
-        place: "velinov2018 eq. 6",
-        printed: "to ensure energy conservation, a simple alpha blending",
-        command: REPORT,
-        check: blend,
-    },
-    Claim {
-        name: "density",
-        place: "velinov2018 eq. 17, eq. 18",
-        printed: "scratch area density: Gaussian-weighted scratch length times width, over A_C",
-        command: REPORT,
-        check: density,
-    },
-    Claim {
-        name: "mutual_interference",
-        place: "velinov2018 eq. 7",
-        printed: "mutual interference of scratch ensembles can be neglected",
-        command: REPORT,
-        check: mutual_interference,
-    },
-    Claim {
-        name: "infinite_scratch",
-        place: "velinov2018 eq. 8",
-        printed: "it is generally assumed that the scratches fall completely within the coherence area; the limit \
-                  of an infinite scratch",
-        command: REPORT,
-        check: infinite_scratch,
-    },
-    Claim {
-        name: "squared_factors",
-        place: "velinov2018 eq. 6, 9, 10, 11",
-        printed: "|B|^2 + |S|^2 - 2 B*S; |eta_s|^2 = 2 A_C exp(-s_b/sigma^2); |D|^2 = 2 - 2 cos(4 pi D/lambda)",
-        command: REPORT,
-        check: squared_factors,
-    },
-    Claim {
-        name: "density_of_ends",
-        place: "velinov2018 eq. 17, second line",
-        printed: "the density of scratches extending over the coherence area",
-        command: REPORT,
-        check: density_of_ends,
-    },
+/// Checks of the claims, by name.
+pub(super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+    ("side_lobes", side_lobes),
+    ("envelope", envelope),
+    ("small_angles", small_angles),
+    ("blend", blend),
+    ("density", density),
+    ("mutual_interference", mutual_interference),
+    ("infinite_scratch", infinite_scratch),
+    ("squared_factors", squared_factors),
+    ("density_of_ends", density_of_ends),
 ];
 
 const LIGHT: Coherence = Coherence { wavelength_um: 0.55, sigma_um: 60.0 };
@@ -192,10 +138,10 @@ fn density(_: &Candidates) -> Result<Found, ClaimError> {
 
 fn mutual_interference(_: &Candidates) -> Result<Found, ClaimError> {
     let crossed = [0.5, 2.0, 8.0].map(|n| {
-        let study = EnsembleStudy::of_scratches(n, PI);
+        let study = EnsembleStudy::new(n, PI, Seen::Scratch);
         format!("{:.2} (mean {:.2}) at {n}", study.rms[3], study.mean[3])
     });
-    let parallel = EnsembleStudy::of_scratches(8.0, 2.0_f64.to_radians());
+    let parallel = EnsembleStudy::new(8.0, 2.0_f64.to_radians(), Seen::Scratch);
     let found = format!(
         "relative RMS at a point, in the lobes of scratches of any orientation: {} per coherence area; {:.2} (mean \
          {:.2}) at 8 within one degree of each other",

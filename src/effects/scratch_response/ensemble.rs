@@ -118,13 +118,6 @@ pub(super) const PUBLISHED: Model = Model {
     base: Base::Density,
 };
 
-/// What a model takes of an ensemble in one direction, for every model at once.
-#[derive(Debug, Clone, Copy, Default)]
-struct Parts {
-    amplitude: Complex<f64>,
-    lobes: f64,
-}
-
 /// An ensemble under one light: its densities, and its amplitudes in any direction.
 #[derive(Debug)]
 pub(super) struct Lit<'a> {
@@ -142,8 +135,12 @@ impl<'a> Lit<'a> {
         mirror_mu_sum: f64,
     ) -> Self {
         let shares = [Ends::Finite, Ends::Infinite, Ends::Matched].map(|ends| {
+            let taken = |scratch: &StraightScratch| match ends {
+                Ends::Finite | Ends::Matched => *scratch,
+                Ends::Infinite => scratch.unbounded(),
+            };
             let of = |share: &dyn Fn(StraightScratch) -> f64| -> f64 {
-                scratches.iter().map(|&scratch| share(with_ends(scratch, ends))).sum()
+                scratches.iter().map(taken).map(share).sum()
             };
             let depth = |scratch: StraightScratch| {
                 depth_factor(scratch.depth_um, light.wavelength_um, mirror_mu_sum).norm_sqr()
@@ -181,8 +178,8 @@ impl<'a> Lit<'a> {
         directions: Directions,
     ) -> [f64; N] {
         let mirror = mirror_amplitude(self.light, directions);
-        // By depth and by ends.
-        let mut parts = [[Parts::default(); 3]; 2];
+        // By depth and by ends: the sum of amplitudes, and that of their squares.
+        let mut parts = [[(Complex::default(), 0.0); 3]; 2];
         for &scratch in self.scratches {
             let profile = scratch.profile(self.light, directions.xi);
             let (q, [begin, end]) = (profile.wavenumber_sigma, profile.ends);
@@ -191,22 +188,22 @@ impl<'a> Lit<'a> {
                 [along_factor(q, begin, end), infinite, matched_factor(q, begin, end).into()];
             for (mu_sum, parts) in [directions.mu_sum, 2.0].into_iter().zip(&mut parts) {
                 let depth = depth_factor(scratch.depth_um, self.light.wavelength_um, mu_sum);
-                for (along, part) in along.iter().zip(parts) {
-                    let amplitude = depth * profile.amplitude * along;
-                    part.amplitude += amplitude;
-                    part.lobes += amplitude.norm_sqr();
+                for (along, (sum, lobes)) in along.iter().zip(parts) {
+                    let amplitude: Complex<f64> = depth * profile.amplitude * along;
+                    *sum += amplitude;
+                    *lobes += amplitude.norm_sqr();
                 }
             }
         }
         models.map(|model| {
             let by_depth = parts[usize::from(model.depth == Depth::SmallAngle)];
-            let part = by_depth[model.ends as usize];
+            let (amplitude, lobes) = by_depth[model.ends as usize];
             let scattered = match model.sum {
-                Sum::Coherent => part.amplitude.norm_sqr(),
-                Sum::Incoherent => part.lobes,
+                Sum::Coherent => amplitude.norm_sqr(),
+                Sum::Incoherent => lobes,
             };
             let crossed = match model.base {
-                Base::Interfering => -2.0 * mirror * part.amplitude.re,
+                Base::Interfering => -2.0 * mirror * amplitude.re,
                 _ => 0.0,
             };
             self.mirror_share(model) * mirror * mirror + crossed + scattered
@@ -228,13 +225,6 @@ fn matched_factor(q: f64, begin: f64, end: f64) -> f64 {
     }
     let narrowing = peak * peak / energy * q;
     peak * core_math::exp(-0.5 * narrowing * narrowing)
-}
-
-fn with_ends(scratch: StraightScratch, ends: Ends) -> StraightScratch {
-    match ends {
-        Ends::Finite | Ends::Matched => scratch,
-        Ends::Infinite => scratch.unbounded(),
-    }
 }
 
 /// Every model of the paper's factors and the blends: two depths, two kinds of ends, two sums, five bases.

@@ -2,73 +2,17 @@
 
 use std::f64::consts::PI;
 
-use super::hard_cases;
-use super::regions::{COLUMNS, Row};
-use crate::effect::{FormValues, Law, points};
+use super::regions::{COLUMNS, Row, hard_rows};
+use crate::effect::{FormValues, Violation, points};
 use crate::numeric::statistics::{largest, sum};
 
-const SINGLE: &[&str] = &["scratch_reflectance", "scratched_mirror_reflectance"];
-
-const WIDE: &str = "1 - rho turns negative for scratches that are wide over sigma: rho has to be clamped to 1 by \
-                    whoever sums it over scratches";
-
-const PEAK: &str =
-    "keeps energy on average over offsets, not for each: rho_c has the amplitude window";
-
-/// Laws of the effect.
-pub(super) const LAWS: &[Law] = &[
-    Law {
-        name: "non-negative",
-        description: "Finite and never negative: largest magnitude of a negative value over the hard cases.",
-        violation: negative,
-        references: SINGLE,
-        known_violations: &[
-            ("scratch_response/published_mirror", WIDE),
-            ("scratch_response/density_blend", WIDE),
-            ("scratch_response/peak_blend", WIDE),
-            ("scratch_response/matched_mirror", WIDE),
-            ("scratch_response/energy_blend", WIDE),
-        ],
-        ..Law::EMPTY
-    },
-    Law {
-        name: "non-negative pair",
-        description: "The same for two scratches.",
-        violation: negative,
-        references: &["scratch_pair_reflectance"],
-        ..Law::EMPTY
-    },
-    Law {
-        name: "non-negative density",
-        description: "The same for the density.",
-        violation: negative,
-        references: &["scratch_density"],
-        ..Law::EMPTY
-    },
-    Law {
-        name: "even across",
-        description: "For a scratch through the shaded point xi_2 and -xi_2 give the same value to the bit: \
-                      largest difference over the hard cases.",
-        violation: asymmetry,
-        references: SINGLE,
-        ..Law::EMPTY
-    },
-    Law {
-        name: "energy",
-        description: "An infinite scratch in a mirror reflects 1 over the plane of direction cosines at a fixed \
-                      depth phase: largest |integral - 1| over four depths at offsets of 0 and 0.7 sigma, for \
-                      W = sigma/20. The integral ends at 60 lobes, which leaves out 2e-4.",
-        violation: energy_error,
-        tolerance: 1e-3,
-        references: &["scratched_mirror_reflectance"],
-        known_violations: &[
-            ("scratch_response/published_mirror", "rho_c does not know the depth"),
-            ("scratch_response/density_blend", "rho_c does not know the depth"),
-            ("scratch_response/superposed", "nothing is taken from the mirror"),
-            ("scratch_response/peak_blend", PEAK),
-            ("scratch_response/matched_mirror", PEAK),
-        ],
-    },
+/// Laws of the effect, by name.
+pub(super) const LAWS: &[(&str, Violation)] = &[
+    ("non-negative", negative),
+    ("non-negative pair", negative),
+    ("non-negative density", negative),
+    ("even across", asymmetry),
+    ("energy", energy_error),
 ];
 
 fn values(form: FormValues, rows: &[Row]) -> Vec<f32> {
@@ -76,11 +20,11 @@ fn values(form: FormValues, rows: &[Row]) -> Vec<f32> {
 }
 
 fn negative(form: FormValues) -> f64 {
-    worst(values(form, &hard_cases::rows()).iter().map(|v| -f64::from(*v)))
+    worst(values(form, &hard_rows()).iter().map(|v| -f64::from(*v)))
 }
 
 fn asymmetry(form: FormValues) -> f64 {
-    let mut central = hard_cases::rows();
+    let mut central = hard_rows();
     central.iter_mut().for_each(|row| row[6] = 0.0);
     let mut mirrored = central.clone();
     mirrored.iter_mut().for_each(|row| row[5] = -row[5]);

@@ -43,7 +43,6 @@ mod amplitude;
 mod claims;
 mod ensemble;
 mod exhibits;
-mod hard_cases;
 mod laws;
 mod reference;
 mod regions;
@@ -51,44 +50,31 @@ mod surface;
 
 pub use amplitude::{along_factor, depth_factor, sinc_pi};
 pub use surface::{
-    Coherence, Directions, StraightScratch, coherent_amplitude, mirror_amplitude,
-    superposed_svbrdf, svbrdf,
+    Coherence, Directions, StraightScratch, coherent_amplitude, mirror_amplitude, svbrdf,
 };
+
+use std::sync::LazyLock;
 
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{Effect, FormText};
+use crate::effect::{Effect, FormText, Functions};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/scratch_response/forms");
 
 /// The effect, as registered.
-pub const EFFECT: Effect = Effect {
-    name: "scratch_response",
-    title: "Scratch response",
-    description: "How a scratch of rectangular cross-section diffracts light that is coherent over a small \
-                  area, alone, beside others and in a smooth mirror. Renderers take it without ends, at \
-                  small angles and without interference, and dim the mirror by a density; each of these \
-                  is held against the full sum.",
-    references: &[
-        reference::SCRATCH,
-        reference::SCRATCHED_MIRROR,
-        reference::PAIR,
-        reference::DENSITY,
-    ],
-    forms: || FormText::embedded("src/effects/scratch_response/forms", &FORMS),
-    regions: regions::REGIONS,
-    hard_cases: &[hard_cases::HARD_CASES],
-    laws: laws::LAWS,
-    baselines: &[
-        "scratch_response/published",
-        "scratch_response/published_mirror",
-        "scratch_response/incoherent_pair",
-        "scratch_response/infinite_density",
-    ],
-    claims: claims::CLAIMS,
-    exhibits: exhibits::exhibits,
-    ..Effect::EMPTY
-};
+pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
+    let functions = Functions {
+        forms: || FormText::embedded("src/effects/scratch_response/forms", &FORMS),
+        references: reference::REFERENCES,
+        regions: regions::REGIONS,
+        hard_cases: regions::HARD_CASES,
+        laws: laws::LAWS,
+        claims: claims::CLAIMS,
+        exhibits: exhibits::exhibits,
+        ..Functions::NONE
+    };
+    Effect::of_text(include_str!("effect.toml"), functions)
+});
 
 #[cfg(test)]
 mod tests;

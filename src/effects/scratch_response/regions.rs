@@ -1,12 +1,12 @@
-//! Where the forms are judged: what scenes reach, with and without ends, and the neighbourhood of the
-//! mirror direction. Every value is an f32, so that form and reference see the same point.
+//! Where the forms are judged: what scenes reach, with and without ends, the neighbourhood of the mirror
+//! direction, and points that have broken implementations. Every value is an f32, so that form and reference see the same point.
 
 use std::f64::consts::PI;
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use crate::effect::{Region, Yardstick, points};
+use crate::effect::{Points, points};
 use crate::table::Table;
 
 /// Radius of the coherence area in the paper, µm.
@@ -14,55 +14,18 @@ const SIGMA_UM: f64 = 60.0;
 /// Draws per wavelength.
 const DRAWS: usize = 400;
 
-/// Regions of the effect.
-pub(super) const REGIONS: &[Region] = &[
-    Region {
-        name: "visible",
-        description: "Wavelengths of 380 to 780 nm in nine groups, W and D log-uniform from 0.3 to 20 um, \
-                      incidence to 80 degrees, half of the directions inside eight lobes and half over \
-                      all exitances, xi_1 normal with the deviation 1/(sigma k); offsets to 2 sigma, one \
-                      end inside the coherence area in every second draw.",
-        points: || draws(1, visible),
-        fitted: Some(|| draws(101, visible)),
-        by: Some("wavelength_um"),
-        yardstick: Yardstick::RelativeL2,
-    },
-    Region {
-        name: "long",
-        description: "Scratches without an end inside the coherence area, W and D uniform from 0.8 to 6 um \
-                      (velinov2018 section 5), otherwise as visible: what is left is the depth phase.",
-        points: || draws(2, long),
-        fitted: Some(|| draws(102, long)),
-        by: Some("wavelength_um"),
-        yardstick: Yardstick::RelativeL2,
-    },
-    Region {
-        name: "mirror",
-        description: "The neighbourhood of the mirror direction: both parts of xi normal with the deviation \
-                      1/(sigma k), scratches without an end, otherwise as long: blends and cross terms.",
-        points: || draws(3, mirror),
-        fitted: Some(|| draws(103, mirror)),
-        by: Some("wavelength_um"),
-        yardstick: Yardstick::RelativeL2,
-    },
-    Region {
-        name: "mirror, ends",
-        description: "As mirror, with one end of every second scratch inside the coherence area.",
-        points: || draws(5, mirror_with_ends),
-        fitted: Some(|| draws(105, mirror_with_ends)),
-        by: Some("wavelength_um"),
-        yardstick: Yardstick::RelativeL2,
-    },
-    Region {
-        name: "pair",
-        description: "Two infinite scratches with W and D uniform from 0.8 to 6 um, near-parallel (within 3 \
-                      degrees) in every second draw, seen in directions that light the first one.",
-        points: || pair_draws(4),
-        fitted: Some(|| pair_draws(104)),
-        by: Some("wavelength_um"),
-        yardstick: Yardstick::RelativeL2,
-    },
+/// Regions of the effect, by name: points that are judged and that are fitted.
+pub(super) const REGIONS: &[(&str, Points, Option<Points>)] = &[
+    ("visible", || draws(1, visible), Some(|| draws(101, visible))),
+    ("long", || draws(2, long), Some(|| draws(102, long))),
+    ("mirror", || draws(3, mirror), Some(|| draws(103, mirror))),
+    ("mirror, ends", || draws(5, mirror_with_ends), Some(|| draws(105, mirror_with_ends))),
+    ("pair", || pair_draws(4), Some(|| pair_draws(104))),
 ];
+
+/// Hard cases, by name.
+pub(super) const HARD_CASES: &[(&str, Points)] =
+    &[("hard cases", || table(&hard_rows(), |_| true, "hard cases"))];
 
 /// Names and units of the columns, in the order of [`Row`].
 pub(super) const COLUMNS: [(&str, &str); 15] = [
@@ -217,4 +180,46 @@ fn row(
             return row;
         }
     }
+}
+
+/// Points that have broken implementations, every column among them.
+pub(super) fn hard_rows() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for sigma in [0.1, 10.0, 60.0, 1e4] {
+        for wavelength in [0.38, 0.55, 0.78] {
+            for width in [0.01, 0.3, 3.0, 20.0, 1000.0] {
+                for (index, depth) in
+                    [0.0, wavelength / 4.0, wavelength / 2.0, 5.25 * wavelength, 20.0, 1000.0]
+                        .into_iter()
+                        .enumerate()
+                {
+                    rows.extend(hard_directions([width, depth, wavelength, sigma], index));
+                }
+            }
+        }
+    }
+    rows
+}
+
+/// Directions and ends at one size; `index` picks the ends and the second scratch in turn.
+fn hard_directions([width, depth, wavelength, sigma]: [f64; 4], index: usize) -> Vec<Row> {
+    let ends = [[-10.0, 10.0], [0.0, 10.0], [-5e-5, 5e-5], [-1e4, 1e4], [4.0, 9.0], [-9.0, 0.0]];
+    let [begin, end] = ends[index % ends.len()].map(|end| end * sigma);
+    let unit = wavelength / (2.0 * PI * sigma);
+    let turn = [0.0, 1e-4, PI / 2.0, PI][index % 4];
+    let at = |along: f64, across: f64, offset: f64, mu_sum: f64| -> Row {
+        let mut row = [0.0; 15];
+        row[..4].copy_from_slice(&[width, depth, wavelength, sigma]);
+        row[4..11].copy_from_slice(&[along, across, offset, mu_sum, begin, end, 0.5 * mu_sum]);
+        row[11..].copy_from_slice(&[width * 0.5 + 0.1, depth + 0.1, -offset, turn]);
+        row
+    };
+    vec![
+        at(0.0, 0.0, 0.0, 2.0),
+        at(0.0, wavelength / width, 0.0, 1.9),
+        at(unit, -1e-4, sigma, 1.5),
+        at(-7.0 * unit, 0.4, -0.3 * sigma, 1.0),
+        at(0.0, 1.9, 0.5 * sigma, 0.02),
+        at(1.0, 1e-12, 20.0 * sigma, 0.0),
+    ]
 }

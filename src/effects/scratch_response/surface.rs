@@ -4,8 +4,7 @@
 //! Amplitudes are over √π σλ, so that a squared magnitude is a reflectance: the mirror alone has
 //! 2√π (σ/λ) exp(−σ²k²|ξ|²/2), a scratch √2 (W/λ) sinc(πWξ₂/λ) 𝒟 η/(√(2π)σ).
 //! The other two simplifications need no function: an infinite scratch has infinite ends
-//! ([`StraightScratch::unbounded`]), and small angles have [`Directions::mu_sum`] = 2
-//! ([`Directions::at_small_angles`]).
+//! ([`StraightScratch::unbounded`]), and small angles have [`Directions::mu_sum`] = 2.
 
 use std::f64::consts::{PI, SQRT_2};
 
@@ -65,24 +64,23 @@ impl Directions {
         let [x, y, mu_sum] = std::array::from_fn(|i| incidence[i] + exitance[i]);
         Self { xi: [x, y], mu_sum }
     }
-
-    /// The same ξ in the limit of small angles, eq. 4.
-    pub fn at_small_angles(self) -> Self {
-        Self { mu_sum: 2.0, ..self }
-    }
 }
 
 impl StraightScratch {
-    /// A scratch without ends along the first axis of the surface, at `offset_um` from the shaded point.
+    /// A scratch along the first axis of the surface, at `offset_um` from the shaded point.
+    pub(super) fn along_first_axis(
+        width_um: f64,
+        depth_um: f64,
+        offset_um: f64,
+        [begin_um, end_um]: [f64; 2],
+    ) -> Self {
+        let position_um = [0.0, offset_um];
+        Self { position_um, direction_rad: 0.0, begin_um, end_um, width_um, depth_um }
+    }
+
+    /// The same without ends.
     pub(super) fn infinite(offset_um: f64, width_um: f64, depth_um: f64) -> Self {
-        Self {
-            position_um: [0.0, offset_um],
-            direction_rad: 0.0,
-            begin_um: f64::NEG_INFINITY,
-            end_um: f64::INFINITY,
-            width_um,
-            depth_um,
-        }
+        Self::along_first_axis(width_um, depth_um, offset_um, [0.0; 2]).unbounded()
     }
 
     /// The scratch without ends, eq. 8.
@@ -174,17 +172,4 @@ pub fn coherent_amplitude(
 pub fn svbrdf(scratches: &[StraightScratch], light: Coherence, directions: Directions) -> f64 {
     let scratched = coherent_amplitude(scratches, light, directions);
     (mirror_amplitude(light, directions) - scratched).norm_sqr()
-}
-
-/// The SVBRDF without interference of scratches with one another (eq. 7) or with the mirror (eq. 6),
-/// the mirror weighted by `mirror_share`, 1/sr.
-pub fn superposed_svbrdf(
-    scratches: &[StraightScratch],
-    light: Coherence,
-    directions: Directions,
-    mirror_share: f64,
-) -> f64 {
-    let lobes: f64 =
-        scratches.iter().map(|scratch| scratch.amplitude(light, directions).norm_sqr()).sum();
-    mirror_share * mirror_amplitude(light, directions).powi(2) + lobes
 }

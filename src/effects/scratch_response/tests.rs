@@ -1,36 +1,14 @@
 //! Limits and symmetries of the model, and the laws of every form.
 
-use super::EFFECT;
+use std::collections::BTreeMap;
+
 use super::*;
-use crate::effect::FormLibrary;
-use crate::effect::claim::check;
-use crate::form::Form;
+use crate::effects::{found, registered};
+use crate::numeric::statistics::relative_l2;
 
-fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
-    let columns: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
-    match form.eval_f32(&[], &columns) {
-        Ok(mut values) => values.remove(0),
-        Err(_) => vec![f32::NAN; columns[0].len()],
-    }
-}
-
-/// The law list says of every form whether it holds: a known violation that has gone is a fault too.
 #[test]
 fn laws_hold_or_are_known_not_to() {
-    let mut faults = Vec::new();
-    for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
-        let candidate = entry.written().expect("a form with its constants");
-        let reference = entry.reference.as_deref().expect("a reference");
-        for law in EFFECT.laws.iter().filter(|law| law.references.contains(&reference)) {
-            let violation = (law.violation)(&|points| candidate.values_for_laws(points));
-            let known = law.known_violations.iter().any(|(name, _)| *name == entry.name);
-            println!("{}: {} {violation:.3e} (known: {known})", entry.name, law.name);
-            if (violation <= law.tolerance) == known {
-                faults.push(format!("{}: {} {violation:e}, known: {known}", entry.name, law.name));
-            }
-        }
-    }
-    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    crate::effects::assert_laws_are_known(&EFFECT);
 }
 
 /// Relative L2 errors in f32 over each region, worst wavelength, and the largest error over hard cases.
@@ -68,37 +46,26 @@ fn forms_are_as_accurate_as_measured() {
         ("finite_density", "hard cases", 1.30e-7),
     ];
     let mut held = 0;
-    for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
-        let form = entry.load().unwrap_or_else(|error| panic!("{}: {error}", entry.name));
-        let reference = EFFECT
-            .references
-            .iter()
-            .find(|r| Some(r.name) == entry.reference.as_deref())
-            .expect("registered");
+    for entry in registered().of(EFFECT.name) {
+        let candidate = entry.written().expect("a form with its constants");
+        let reference = EFFECT.reference(entry.reference.as_deref().expect("a reference"));
         for region in EFFECT.regions.iter().chain(EFFECT.hard_cases) {
             let table = (region.points)();
-            let column =
-                |name: &str| table.columns.iter().find(|c| c.name == name).map(|c| &c.values);
-            let inputs: Option<Vec<_>> =
-                form.input_columns().iter().map(|name| column(name)).collect();
-            let arguments: Option<Vec<_>> =
-                reference.arguments.iter().map(|a| column(a.name)).collect();
-            let (Some(inputs), Some(arguments)) = (inputs, arguments) else { continue };
-            let inputs: Vec<Vec<f32>> =
-                inputs.iter().map(|c| c.iter().map(|&v| v as f32).collect()).collect();
-            let values = in_f32(&form, &inputs);
-            let (mut worst, mut pairs) =
-                (0.0_f64, std::collections::BTreeMap::<u64, Vec<_>>::new());
-            for (i, value) in values.iter().enumerate() {
-                let point: Vec<f64> = arguments.iter().map(|c| c[i]).collect();
-                let exact = reference.value(&point).unwrap_or_else(|e| panic!("{point:?}: {e}"));
-                assert!(value.is_finite(), "{} {point:?}: {value}", entry.name);
-                let group = region.by.and_then(column).map_or(0, |c| c[i].to_bits());
+            let column = |name: &str| table.column(name).map(|column| column.values.as_slice());
+            let arguments: Option<Vec<&[f64]>> =
+                reference.arguments.iter().map(|argument| column(argument.name)).collect();
+            let inputs = candidate.form.input_columns();
+            let known = inputs.iter().all(|name| column(name).is_some());
+            let Some(arguments) = arguments.filter(|_| known) else { continue };
+            let exact = reference.over(&arguments).expect("in the domain");
+            let values = candidate.values_f32_at(&table).expect("a registered form evaluates");
+            let mut pairs = BTreeMap::<u64, Vec<_>>::new();
+            for (row, (value, exact)) in values.iter().zip(exact).enumerate() {
+                assert!(value.is_finite(), "{} {} row {row}: {value}", entry.name, region.name);
+                let group = region.by.and_then(column).map_or(0, |values| values[row].to_bits());
                 pairs.entry(group).or_default().push((f64::from(*value), exact));
             }
-            for pairs in pairs.into_values() {
-                worst = worst.max(crate::numeric::statistics::relative_l2(pairs));
-            }
+            let worst = pairs.into_values().map(relative_l2).fold(0.0, f64::max);
             println!("{} {}: {worst:.3e}", entry.name, region.name);
             let form = |name: &str| entry.name.ends_with(&format!("/{name}"));
             if let Some((.., limit)) = limits.iter().find(|l| form(l.0) && l.1 == region.name) {
@@ -169,7 +136,9 @@ fn superposition_without_interference_exceeds_one_by_the_shares() {
             let xi = [0.5 * unit * f64::from(i), unit * 0.5 * (f64::from(j) + 0.5)];
             let directions = Directions { xi, mu_sum: 2.0 };
             full += 0.25 * unit * unit * svbrdf(&[scratch], light, directions);
-            added += 0.25 * unit * unit * superposed_svbrdf(&[scratch], light, directions, 1.0);
+            let lobe = scratch.amplitude(light, directions).norm_sqr();
+            let mirror = mirror_amplitude(light, directions).powi(2);
+            added += 0.25 * unit * unit * (mirror + lobe);
         }
     }
     let share = scratch.reflected_share(light, 2.0);
@@ -180,9 +149,7 @@ fn superposition_without_interference_exceeds_one_by_the_shares() {
 
 #[test]
 fn findings_agree_with_the_derivations() {
-    let findings = check(EFFECT.claims, &crate::effects::written(&EFFECT));
-    let found: Vec<&str> = findings.iter().map(|f| f.found.as_str()).collect();
-    println!("{found:#?}");
+    let found = found(&EFFECT);
     // One scratch of W = σ/20: 1 − √(2/π)/20 + |𝒟|²/(20√π), |𝒟|² = 4 and 0.
     assert!(found[3].contains("1.073 for D = lambda/4, 0.960 for D = lambda/2"), "{}", found[3]);
     assert!(found[4].contains("6.000 um by eq. 17, 3.000 um by the light"), "{}", found[4]);

@@ -3,50 +3,21 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::reference::sine_integral;
-use crate::effect::claim::REPORT;
-use crate::effect::{Candidate, Candidates, Claim, ClaimError, Found};
+use crate::effect::claim::Check;
+use crate::effect::{Candidate, Candidates, ClaimError, Found};
 use crate::form::FormError;
 use crate::numeric::statistics::{mean, rms};
 
 /// Eq. 29, as printed.
 const PUBLISHED: &str = "sine_integral/published";
 
-pub(super) const CLAIMS: &[Claim<Candidates>] = &[
-    Claim {
-        name: "constants",
-        place: "velinov2018 eq. 29",
-        printed: "a0 0.66142739, b0 0.38272292, via least squares on [-10, 10]; grid not stated",
-        command: "striae fit sine_integral/refit sine_integral/refit_coarse sine_integral/refit_dense",
-        check: constants,
-    },
-    Claim {
-        name: "near_error",
-        place: "velinov2018 eq. 29 and fig. 7",
-        printed: "an approximation of Si on [-10, 10]; no error given",
-        command: REPORT,
-        check: near_error,
-    },
-    Claim {
-        name: "tail",
-        place: "velinov2018 eq. 29",
-        printed: "a fit of Si",
-        command: "striae fit sine_integral/unbiased_tail",
-        check: tail,
-    },
-    Claim {
-        name: "lobes",
-        place: "velinov2018 eq. 27 with eq. 29",
-        printed: "side lobes of a rectangular scratch from differences of eq. 29",
-        command: REPORT,
-        check: lobes,
-    },
-    Claim {
-        name: "half_lobes",
-        place: "velinov2018 eq. 27 with eq. 29",
-        printed: "side lobes cut by the edge of a light, from differences of eq. 29",
-        command: REPORT,
-        check: half_lobes,
-    },
+/// Checks of the claims, by name.
+pub(super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+    ("constants", constants),
+    ("near_error", near_error),
+    ("tail", tail),
+    ("lobes", lobes),
+    ("half_lobes", half_lobes),
 ];
 
 /// Form minus reference.

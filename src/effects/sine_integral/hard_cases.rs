@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use crate::effect::{Region, points};
+use crate::effect::{Points, points};
 use crate::table::{Column, Table};
 
 /// Largest |x| for which forms are judged.
@@ -15,40 +15,12 @@ const FARTHEST: f64 = 1e4;
 /// |x| up to which eq. 29 was fitted.
 const NEAR: f64 = 10.0;
 
-/// Regions of the effect.
-pub(super) const REGIONS: &[Region] = &[
-    Region {
-        name: "[-10, 10]",
-        description: "Where eq. 29 was fitted: 4000 points between those of the fits, 2000 drawn \
-                      uniformly, and the hard cases inside.",
-        points: near,
-        ..Region::EMPTY
-    },
-    Region {
-        name: "[10, 1e4]",
-        description: "Beyond it, where side lobes are differences of tails: 4000 points in equal \
-                      ratios, 2000 drawn log-uniformly, both signs, and the hard cases inside.",
-        points: far,
-        ..Region::EMPTY
-    },
-    Region {
-        name: "scene",
-        description: "x = kWq of velinov2018 eq. 27 as scenes reach it: scratch widths W of 0.8 to \
-                      6 um, wavelengths of 380 to 780 nm and |q| up to 2, each drawn uniformly \
-                      (6000 draws). |x| goes up to 198.4, half of it is below 30.",
-        points: scene,
-        ..Region::EMPTY
-    },
-];
+/// Regions of the effect, by name: points that are judged and that are fitted.
+pub(super) const REGIONS: &[(&str, Points, Option<Points>)] =
+    &[("[-10, 10]", near, None), ("[10, 1e4]", far, None), ("scene", scene, None)];
 
-/// The hard cases, as registered.
-pub(super) const HARD_CASES: Region = Region {
-    name: "hard cases",
-    description: "subnormal and tiny arguments, branch switches of forms, zeros of sine and cosine \
-                  up to 1e4, both signs of each with their neighbours",
-    points: hard_cases,
-    ..Region::EMPTY
-};
+/// Hard cases, by name.
+pub(super) const HARD_CASES: &[(&str, Points)] = &[("hard cases", hard_cases)];
 
 /// Points that have broken implementations, both signs of each.
 pub(super) fn hard_cases() -> Table {
@@ -114,11 +86,12 @@ pub(super) fn table(points: Vec<f64>, origin: &str) -> Table {
 
 #[cfg(test)]
 mod tests {
+    use super::super::EFFECT;
     use super::*;
 
     #[test]
     fn regions_hold_what_their_descriptions_say() {
-        for region in REGIONS {
+        for region in EFFECT.regions {
             let table = (region.points)();
             let x = &table.columns[0].values;
             assert!(x.iter().all(|&x| x == f64::from(x as f32)), "{} is in f32", region.name);

@@ -26,45 +26,33 @@ mod reference;
 
 pub use reference::{auxiliary, sine_integral};
 
+use std::sync::LazyLock;
+
 use include_dir::{Dir, include_dir};
 
-use crate::effect::{Effect, Evaluate, FormText, Quantity, Reference};
+use crate::effect::{Effect, FormText, Functions};
 
 static FORMS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/src/effects/sine_integral/forms");
 
 /// The effect, as registered.
-pub const EFFECT: Effect = Effect {
-    name: "sine_integral",
-    title: "Sine integral",
-    description: "Si(x), the integral of sin t / t. A scratch with a rectangular profile diffracts \
-                  light into a sinc squared lobe; integrated over a rectangular light source it is \
-                  a difference of two values of Si, taken per light, scratch and wavelength.",
-    references: &[REFERENCE],
-    forms: || {
-        let mut texts = FormText::embedded("src/effects/sine_integral/forms", &FORMS);
-        texts.extend([64, 256, 1024].map(lookup::text));
-        texts
-    },
-    regions: hard_cases::REGIONS,
-    hard_cases: &[hard_cases::HARD_CASES],
-    laws: laws::LAWS,
-    baselines: &["sine_integral/published"],
-    claims: claims::CLAIMS,
-    ..Effect::EMPTY
-};
-
-const REFERENCE: Reference = Reference {
-    name: "sine_integral",
-    description: "Si(x), the integral of sin t / t from 0 to x",
-    arguments: &[Quantity { name: "x", unit: "1", domain: "any f64" }],
-    unit: "1",
-    accuracy: "relative error <= 1e-14 for every finite x, odd to the bit (tests/references.rs)",
-    source: "Abramowitz & Stegun 5.2.14, 5.1.22, 5.2.34-35",
+pub static EFFECT: LazyLock<Effect> = LazyLock::new(|| {
     // A call without its argument has no value.
-    evaluate: Evaluate::Scalar(|arguments| {
-        Ok(sine_integral(arguments.first().copied().unwrap_or(f64::NAN)))
-    }),
-};
+    let value = |point: &[f64]| Ok(sine_integral(point.first().copied().unwrap_or(f64::NAN)));
+    let functions = Functions {
+        forms: || {
+            let mut texts = FormText::embedded("src/effects/sine_integral/forms", &FORMS);
+            texts.extend([64, 256, 1024].map(lookup::text));
+            texts
+        },
+        references: &[("sine_integral", value)],
+        regions: hard_cases::REGIONS,
+        hard_cases: hard_cases::HARD_CASES,
+        laws: laws::LAWS,
+        claims: claims::CLAIMS,
+        ..Functions::NONE
+    };
+    Effect::of_text(include_str!("effect.toml"), functions)
+});
 
 #[cfg(test)]
 mod tests;

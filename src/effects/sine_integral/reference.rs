@@ -66,30 +66,25 @@ pub fn auxiliary(x: f64) -> (f64, f64) {
 
 /// Si by A&S 5.2.14, x·(1 + Σ (−1)ᵏ x²ᵏ / ((2k + 1)(2k + 1)!)), for 0 ≤ x ≤ 4.
 fn series(x: f64) -> f64 {
-    let square = x * x;
-    let (mut power, mut sum, mut odd) = (1.0, 0.0, 1.0);
-    loop {
-        // power = (−1)ᵏ x²ᵏ / (2k + 1)!
-        power *= -square / ((odd + 1.0) * (odd + 2.0));
-        odd += 2.0;
-        let next = sum + power / odd;
-        if next == sum {
-            return x + x * sum;
-        }
-        sum = next;
-    }
+    x + x * alternating(x, 1.0)
 }
 
 /// Ci by A&S 5.2.16, γ + ln x + Σ (−1)ᵏ x²ᵏ / (2k (2k)!), for 0 < x ≤ 4.
 fn cosine_integral_series(x: f64) -> f64 {
+    EULER_GAMMA + core_math::log(x) + alternating(x, 0.0)
+}
+
+/// Σ (−1)ᵏ x²ᵏ first! / (m m!), m = 2k + `first`, over k ≥ 1; `first` is 0 or 1.
+fn alternating(x: f64, first: f64) -> f64 {
     let square = x * x;
-    let (mut power, mut sum, mut even) = (1.0, 0.0, 0.0);
+    let (mut power, mut sum, mut m) = (1.0, 0.0, first);
     loop {
-        power *= -square / ((even + 1.0) * (even + 2.0));
-        even += 2.0;
-        let next = sum + power / even;
+        // power = (−1)ᵏ x²ᵏ / m!
+        power *= -square / ((m + 1.0) * (m + 2.0));
+        m += 2.0;
+        let next = sum + power / m;
         if next == sum {
-            return EULER_GAMMA + core_math::log(x) + sum;
+            return sum;
         }
         sum = next;
     }

@@ -2,38 +2,22 @@
 //! against the laws. The gates hold the fitted constants; this holds what is written.
 
 use super::EFFECT;
-use crate::effect::claim::check;
-use crate::effect::{FormEntry, FormLibrary};
-use crate::form::Form;
-
-fn in_f32(form: &Form, columns: &[Vec<f32>]) -> Vec<f32> {
-    let constants: Vec<f32> =
-        form.parameters().iter().map(|p| p.default.expect("a default") as f32).collect();
-    let columns: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
-    form.eval_f32(&constants, &columns).expect("a registered form evaluates").remove(0)
-}
-
-fn load(entry: &FormEntry) -> Form {
-    entry.load().unwrap_or_else(|error| panic!("{}: {error}", entry.name))
-}
+use crate::effect::{Candidate, Region};
+use crate::effects::{found, written};
 
 /// Largest error in f32 over each region, and where.
-fn errors(form: &Form) -> Vec<(f64, f32)> {
-    let region = |points: fn() -> crate::table::Table| {
-        let x: Vec<f32> = points().columns[0].values.iter().map(|&x| x as f32).collect();
-        let values = in_f32(form, std::slice::from_ref(&x));
-        x.iter().zip(values).fold((0.0, f32::NAN), |worst: (f64, f32), (&x, v)| {
-            let error = (f64::from(v) - super::sine_integral(f64::from(x))).abs();
+fn errors(candidate: &Candidate) -> Vec<(f64, f64)> {
+    let over = |region: &Region| {
+        let points = (region.points)();
+        let values = candidate.values_f32_at(&points).expect("a registered form evaluates");
+        let x = points.columns[0].values.iter();
+        x.zip(values).fold((0.0, f64::NAN), |worst: (f64, f64), (&x, v)| {
+            let error = (f64::from(v) - super::sine_integral(x)).abs();
             // A NaN is the worst of all and stays so.
             if error > worst.0 || error.is_nan() { (error, x) } else { worst }
         })
     };
-    EFFECT
-        .regions
-        .iter()
-        .map(|r| region(r.points))
-        .chain([region(EFFECT.hard_cases[0].points)])
-        .collect()
+    EFFECT.regions.iter().chain(EFFECT.hard_cases).map(over).collect()
 }
 
 #[test]
@@ -49,14 +33,13 @@ fn forms_are_as_accurate_as_measured() {
         ("sine_integral/lookup_256", [3.00e-4, 2.89e-4, 3.00e-4, 2.89e-4]),
         ("sine_integral/lookup_1024", [5.66e-5, 4.81e-5, 5.65e-5, 4.80e-5]),
     ];
-    let forms = FormLibrary::new(&[&EFFECT]).expect("registered");
-    assert_eq!(limits.len(), forms.iter().count());
+    let candidates = written(&EFFECT);
+    assert_eq!(limits.len(), candidates.iter().count());
     let mut faults = Vec::new();
     for (name, limits) in limits {
-        let entry = forms.get(name).expect("registered");
-        let form = load(entry);
-        let errors = errors(&form);
-        println!("{name}: {errors:?} {:?}", form.op_count());
+        let candidate = candidates.get(name).expect("registered");
+        let errors = errors(candidate);
+        println!("{name}: {errors:?} {:?}", candidate.form.op_count());
         faults.extend(
             errors
                 .iter()
@@ -68,38 +51,24 @@ fn forms_are_as_accurate_as_measured() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// The law list says of every form whether it holds: a known violation that has gone is a fault too.
 #[test]
 fn laws_hold_or_are_known_not_to() {
-    let mut faults = Vec::new();
-    for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
-        let candidate = entry.written().expect("a form with its constants");
-        for law in EFFECT.laws {
-            let violation = (law.violation)(&|points| candidate.values_for_laws(points));
-            let known = law.known_violations.iter().any(|(name, _)| *name == entry.name);
-            println!("{}: {} {violation:.3e} (known: {known})", entry.name, law.name);
-            if (violation <= law.tolerance) == known {
-                faults.push(format!("{}: {} {violation:e}, known: {known}", entry.name, law.name));
-            }
-        }
-    }
-    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    crate::effects::assert_laws_are_known(&EFFECT);
 }
 
 #[test]
 fn forms_are_finite_at_the_ends() {
-    for entry in FormLibrary::new(&[&EFFECT]).expect("registered").iter() {
-        let values = in_f32(&load(entry), &[vec![0.0, -0.0, f32::MAX, -f32::MAX, 1e20]]);
-        assert!(values.iter().all(|v| v.is_finite()), "{}: {values:?}", entry.name);
-        assert_eq!(values[0], 0.0, "{}", entry.name);
+    for candidate in written(&EFFECT).iter() {
+        let ends = [0.0, -0.0, f32::MAX, -f32::MAX, 1e20];
+        let values = candidate.values_f32(&[&ends]).expect("a registered form evaluates");
+        assert!(values.iter().all(|v| v.is_finite()), "{}: {values:?}", candidate.name);
+        assert_eq!(values[0], 0.0, "{}", candidate.name);
     }
 }
 
 #[test]
 fn findings_agree_with_the_derivations() {
-    let findings = check(EFFECT.claims, &crate::effects::written(&EFFECT));
-    let found: Vec<&str> = findings.iter().map(|f| f.found.as_str()).collect();
-    println!("{found:#?}");
+    let found = found(&EFFECT);
     assert!(found[1].contains("0.05098 at x = ±3.56, RMS 0.02937"), "{}", found[1]);
     assert!(found[2].contains("0.339/x") && found[2].contains("0.0245"), "{}", found[2]);
     assert!(found[3].contains("-18.4 % at n = 1, -30.7 % at n = 5, -33.7 % at n = 100"));

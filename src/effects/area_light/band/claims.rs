@@ -5,48 +5,19 @@ use std::f64::consts::{PI, TAU};
 
 use super::lobe_errors::{Part, relative_errors, worst};
 use super::{MEDIUM, PRINTED, PRINTED_LARGE, sinc_squared_band};
-use crate::effect::claim::REPORT;
-use crate::effect::{Candidate, Candidates, Claim, ClaimError, Found};
+use crate::effect::claim::Check;
+use crate::effect::{Candidate, Candidates, ClaimError, Found};
 use crate::effects::sine_integral::sine_integral;
 use crate::form::FormError;
 use crate::numeric::statistics::largest;
 
-pub(crate) const CLAIMS: [Claim<Candidates>; 5] = [
-    Claim {
-        name: "normalisation",
-        place: "velinov2018 eq. 27",
-        printed: "2 Si(kWq)/(kW) - 4 sin^2(kWq/2)/(k^2 W^2 q): the integral of sinc^2 by parts",
-        command: "striae eval sinc_squared_band --input bands.csv",
-        check: normalisation,
-    },
-    Claim {
-        name: "whole_lobes",
-        place: "velinov2018 eq. 27 with eq. 29",
-        printed: "side lobes as differences of eq. 29; no error given",
-        command: REPORT,
-        check: whole_lobes,
-    },
-    Claim {
-        name: "half_lobes",
-        place: "velinov2018 eq. 27 with eq. 29",
-        printed: "side lobes cut by the edge of a light",
-        command: REPORT,
-        check: half_lobes,
-    },
-    Claim {
-        name: "tail",
-        place: "velinov2018 §3.4, eq. 29",
-        printed: "Si is the superposition of a sigmoid and a hyperbolically decaying oscillation",
-        command: REPORT,
-        check: tail,
-    },
-    Claim {
-        name: "discrepancies",
-        place: "velinov2018 fig. 8, 9 and 10",
-        printed: "minor discrepancies that are related to the Si(x) approximation",
-        command: REPORT,
-        check: discrepancies,
-    },
+/// Checks of the claims, by name.
+pub(crate) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+    ("normalisation", normalisation),
+    ("whole_lobes", whole_lobes),
+    ("half_lobes", half_lobes),
+    ("tail", tail),
+    ("discrepancies", discrepancies),
 ];
 
 /// Relative error of a lobe up to which a claim that gives none counts as one that holds.

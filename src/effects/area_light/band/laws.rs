@@ -2,79 +2,24 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::REFERENCE;
-use super::hard_cases::hard_cases;
-use super::regions::table;
-use crate::effect::{FormValues, Law};
+use super::regions::{hard_cases, table};
+use crate::effect::{FormValues, Violation};
 use crate::numeric::statistics::largest;
 use crate::table::Table;
 
-const REFERENCES: &[&str] = &[REFERENCE.name];
-
-/// What every form of eq. 27 as printed violates for one reason.
-const CANCELS: &str =
-    "differences of values near pi: an error of 1e-7 to 1e-6 exceeds a far or narrow band";
-
-/// Swapping the bounds changes the sign.
-pub(crate) const ANTISYMMETRIC: Law = Law {
-    name: "antisymmetric",
-    description: "B(x1, x0) = -B(x0, x1) to the bit, so that B(x, x) = 0: largest sum over the hard bands, \
-                  their bounds taken as bands of no width among them.",
-    violation: antisymmetry,
-    references: REFERENCES,
-    ..Law::EMPTY
-};
-
-/// The integrand is a square.
-pub(crate) const POSITIVE: Law = Law {
-    name: "positive",
-    description: "B > 0 for x0 < x1: share of the hard bands wider than 1e-30 on which it is not.",
-    violation: not_positive,
-    references: REFERENCES,
-    known_violations: &[
-        ("area_light/band_printed", CANCELS),
-        ("area_light/band_printed_small", CANCELS),
-        ("area_light/band_printed_medium", CANCELS),
-        ("area_light/band_printed_lean", CANCELS),
-        ("area_light/band_printed_large", CANCELS),
-    ],
-    ..Law::EMPTY
-};
-
-/// The integrand is even.
-pub(crate) const EVEN: Law = Law {
-    name: "even",
-    description: "B(-x1, -x0) = B(x0, x1) to the bit: largest difference over the hard bands.",
-    violation: unevenness,
-    references: REFERENCES,
-    ..Law::EMPTY
-};
-
-/// A light cut in two gives what it gave whole.
-pub(crate) const ADDITIVE: Law = Law {
-    name: "additive",
-    description: "B(a, b) + B(b, c) = B(a, c): largest relative difference for lobes and half lobes side by \
-                  side, to 2000 pi; the seam that a light cut in two would show. The tolerance is the error \
-                  asked of lobes; eq. 27 as printed is a difference of one primitive, and its seam is rounding.",
-    violation: seam,
-    tolerance: 1e-3,
-    references: REFERENCES,
-    known_violations: &[(
-        "area_light/band_lean",
-        "beyond one period it is good to 7e-3, not to 1e-3",
-    )],
-};
-
-/// No light receives more than the whole lobe holds.
-pub(crate) const TOTAL: Law = Law {
-    name: "total",
-    description: "|B| <= 2 pi, the integral over the whole axis: largest excess over bands across 0, to \
-                  |x| = 1e5. The tolerance is 1e-3, as that of the lobes.",
-    violation: excess_over_total,
-    tolerance: 1e-3,
-    references: REFERENCES,
-    ..Law::EMPTY
-};
+/// Laws of bands, by name.
+pub(crate) const LAWS: &[(&str, Violation)] = &[
+    // Swapping the bounds changes the sign.
+    ("antisymmetric", antisymmetry),
+    // The integrand is a square.
+    ("positive", not_positive),
+    // The integrand is even.
+    ("even", unevenness),
+    // A light cut in two gives what it gave whole.
+    ("additive", seam),
+    // No light receives more than the whole lobe holds.
+    ("total", excess_over_total),
+];
 
 /// The bands with their bounds swapped.
 fn swapped(bands: &Table) -> Table {

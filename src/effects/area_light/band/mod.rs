@@ -29,7 +29,6 @@
 
 mod claims;
 mod exhibits;
-mod hard_cases;
 mod laws;
 mod lobe_errors;
 mod reference;
@@ -37,30 +36,20 @@ mod regions;
 
 pub(super) use claims::CLAIMS;
 pub(super) use exhibits::exhibits;
-pub(super) use hard_cases::HARD_CASES;
-pub(super) use laws::{ADDITIVE, ANTISYMMETRIC, EVEN, POSITIVE, TOTAL};
+pub(super) use laws::LAWS;
 pub use reference::sinc_squared_band;
-pub(super) use regions::{LOBES, NARROW, SCENE_BANDS};
+pub(super) use regions::{HARD_CASES, REGIONS};
 
-use crate::effect::{Evaluate, Quantity, Reference};
+use crate::effect::Scalar;
 
-/// The band integral, as registered.
-pub(super) const REFERENCE: Reference = Reference {
-    name: "sinc_squared_band",
-    description: "integral of sinc^2(t/2), sinc u = sin u / u, from x0 to x1",
-    arguments: &[
-        Quantity { name: "x0", unit: "rad", domain: "any f64" },
-        Quantity { name: "x1", unit: "rad", domain: "any f64" },
-    ],
-    unit: "1",
-    accuracy: "relative error <= 1e-13 for every band, however narrow or far (tests/band.rs)",
-    source: "velinov2018 eq. 25 and 27 by parts; A&S 5.2.6-8, 5.2.34-35",
-    evaluate: Evaluate::Scalar(|arguments| match *arguments {
+/// The band integral, by name.
+pub(super) const REFERENCES: &[(&str, Scalar)] = &[
+    // A call without its arguments has no value.
+    ("sinc_squared_band", |point| match *point {
         [x0, x1, ..] => Ok(sinc_squared_band(x0, x1)),
-        // A call without its arguments has no value.
         _ => Ok(f64::NAN),
     }),
-};
+];
 
 /// Eq. 27 with eq. 29: what ships, and what costs and errors are held against.
 const PRINTED: &str = "area_light/band_printed";

@@ -1,5 +1,5 @@
 //! Where band forms are judged, and the points on which they are fitted: every lobe to n = 1000, bands
-//! as scenes make them, and narrow bands.
+//! as scenes make them, narrow bands, and bands that have broken implementations.
 //!
 //! Every bound is an f32, so that a form in f32 and the reference in f64 see the same band.
 
@@ -9,44 +9,21 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
 use super::sinc_squared_band;
-use crate::effect::{Region, Yardstick, points};
+use crate::effect::{Points, points};
 use crate::table::{Column, Table};
 
 /// Highest order of the lobes judged.
 const LAST_LOBE: u32 = 1000;
 
-/// Every lobe and half lobe.
-pub(crate) const LOBES: Region = Region {
-    name: "lobes",
-    description: "x0 to x1 over [2 pi n, 2 pi (n + 1)], its first and its second half, n = 0 ... 1000, on \
-                  both sides of 0 and in either order of the bounds (12012 bands).",
-    points: lobes,
-    yardstick: Yardstick::MaxRelative,
-    ..Region::EMPTY
-};
+/// Regions of bands, by name: points that are judged and that are fitted.
+pub(crate) const REGIONS: &[(&str, Points, Option<Points>)] = &[
+    ("lobes", lobes, None),
+    ("scene bands", || scene_bands(27, 6000), Some(|| weighted(scene_bands(1827, 6000)))),
+    ("narrow bands", narrow, None),
+];
 
-/// Bands of lights.
-pub(crate) const SCENE_BANDS: Region = Region {
-    name: "scene bands",
-    description: "x = k W q as scenes reach it: widths W of 0.8 to 6 um and wavelengths of 380 to 780 nm, \
-                  uniform; lights of 0.1 to 90 degrees, log-uniform, anywhere in the plane of incidence, \
-                  the eye likewise (6000 draws; 6000 others are fitted, each weighted by 1/B^2, so that \
-                  the relative error counts).",
-    points: || scene_bands(27, 6000),
-    fitted: Some(|| weighted(scene_bands(1827, 6000))),
-    yardstick: Yardstick::MaxRelative,
-    ..Region::EMPTY
-};
-
-/// Bands that are narrow beside a period.
-pub(crate) const NARROW: Region = Region {
-    name: "narrow bands",
-    description: "widths of 1e-3 to 1 rad about zeros 2 pi n, crests and anywhere, |x| to 6.3e3, \
-                  log-uniform (6000 draws).",
-    points: narrow,
-    yardstick: Yardstick::MaxRelative,
-    ..Region::EMPTY
-};
+/// Hard cases of bands, by name.
+pub(crate) const HARD_CASES: &[(&str, Points)] = &[("hard bands", hard_cases)];
 
 fn lobes() -> Table {
     let bands = (0..=LAST_LOBE).flat_map(|n| {
@@ -89,6 +66,48 @@ fn narrow() -> Table {
         (side * (middle - 0.5 * width), side * (middle + 0.5 * width))
     });
     table(bands.collect(), "seeded draws of width and place")
+}
+
+/// Bounds that have broken implementations, then bands of a few ulp, then bands of one period.
+pub(super) fn hard_cases() -> Table {
+    let bounds = bounds();
+    let mut bands = Vec::new();
+    for (i, &a) in bounds.iter().enumerate() {
+        bands.push((-a, a));
+        bands.push((0.0, a));
+        bands.push((a, 0.0));
+        // Every bound against a fifth of the others, so that all pairs of kinds occur.
+        for &b in bounds.iter().skip(i % 5).step_by(5) {
+            bands.extend([(a, b), (-a, b)]);
+        }
+    }
+    for n in [0, 1, 2, 5, 10, 100, 1000, 10_000, 15_000] {
+        for quarter in 0..4 {
+            let start = (TAU * f64::from(n) + 0.5 * PI * f64::from(quarter)) as f32;
+            for ulps in [1, 2, 7, 100] {
+                let end = f32::from_bits(start.to_bits() + ulps);
+                bands.extend([
+                    (f64::from(start), f64::from(end)),
+                    (-f64::from(start), -f64::from(end)),
+                ]);
+            }
+            for width in [PI, TAU - 1e-3, TAU, TAU + 1e-3, 2.0 * TAU] {
+                let (start, end) = (f64::from(start), f64::from(start) + width);
+                bands.extend([(start, end), (-start, -end), (start - width, start)]);
+            }
+        }
+    }
+    table(bands, "hard bands")
+}
+
+fn bounds() -> Vec<f64> {
+    let mut bounds: Vec<f32> =
+        vec![0.0, 1e-45, 1e-40, f32::MIN_POSITIVE, 1e-30, 1e-10, 1e-5, 1e-3, 0.1];
+    bounds.extend([1.0, 2.0, 3.0, 4.0, 10.0, 1e3, 1e5]);
+    for n in [1, 2, 3, 4, 5, 20, 200, 1999, 2000, 31_830] {
+        bounds.extend(points::neighbours(PI * f64::from(n)));
+    }
+    bounds.into_iter().map(f64::from).collect()
 }
 
 /// A table of bounds, rounded to f32; a band that rounding closes is left out.

@@ -1,36 +1,20 @@
 //! Every band form, with the constants written in its text, in f32 against the reference in every region.
 
-use super::{
-    HARD_CASES, LARGE, LEAN, LOBES, MEDIUM, NARROW, REFERENCE, SCENE_BANDS, sinc_squared_band,
-};
-use crate::effect::{FormEntry, FormLibrary};
-use crate::effects::{area_light, sine_integral};
-use crate::form::Form;
+use super::{HARD_CASES, LARGE, LEAN, MEDIUM, REGIONS, sinc_squared_band};
+use crate::effect::{Candidate, Points};
+use crate::effects::area_light::EFFECT;
 use crate::table::Table;
 
-fn forms() -> FormLibrary {
-    FormLibrary::new(&[&sine_integral::EFFECT, &area_light::EFFECT]).expect("registered")
-}
-
-fn load(entry: &FormEntry) -> Form {
-    entry.load().unwrap_or_else(|error| panic!("{}: {error}", entry.name))
-}
-
-fn in_f32(form: &Form, table: &Table) -> Vec<f32> {
-    let constants: Vec<f32> =
-        form.parameters().iter().map(|p| p.default.expect("a default") as f32).collect();
-    let columns: Vec<Vec<f32>> = ["x0", "x1"]
-        .iter()
-        .map(|name| table.column(name).expect("a bound").values.iter().map(|&x| x as f32).collect())
-        .collect();
-    let columns: Vec<&[f32]> = columns.iter().map(Vec::as_slice).collect();
-    form.eval_f32(&constants, &columns).expect("a registered form evaluates").remove(0)
+/// Where bands are judged.
+fn places() -> impl Iterator<Item = (&'static str, Points)> {
+    REGIONS.iter().map(|&(name, points, _)| (name, points)).chain(HARD_CASES.iter().copied())
 }
 
 /// Largest relative error in f32, of values that are normal numbers in f32.
-fn largest_relative_error(form: &Form, table: &Table) -> f64 {
+fn largest_relative_error(candidate: &Candidate, table: &Table) -> f64 {
     let bands = table.columns[0].values.iter().zip(&table.columns[1].values);
-    bands.zip(in_f32(form, table)).fold(0.0, |worst: f64, ((&x0, &x1), value)| {
+    let values = candidate.values_f32_at(table).expect("a registered form evaluates");
+    bands.zip(values).fold(0.0, |worst: f64, ((&x0, &x1), value)| {
         let exact = sinc_squared_band(x0, x1);
         let error = (f64::from(value) / exact - 1.0).abs();
         let judged = exact.abs() > f64::from(f32::MIN_POSITIVE);
@@ -43,15 +27,15 @@ fn largest_relative_error(form: &Form, table: &Table) -> f64 {
 fn forms_of_striae_are_as_accurate_as_measured() {
     // Measured on lobes, scene bands, narrow bands and hard bands, and rounded up in the third digit.
     let limits = [(LEAN, LEAN_LIMITS), (MEDIUM, MEDIUM_LIMITS), (LARGE, LARGE_LIMITS)];
-    let forms = forms();
+    let candidates = crate::effects::written(&EFFECT);
     let mut faults = Vec::new();
     for (name, limits) in limits {
-        let form = load(forms.get(name).expect("registered"));
-        for (region, limit) in [LOBES, SCENE_BANDS, NARROW, HARD_CASES].iter().zip(limits) {
-            let error = largest_relative_error(&form, &(region.points)());
-            println!("{name} on {}: {error:.3e}, {:?}", region.name, form.op_count());
+        let candidate = candidates.get(name).expect("registered");
+        for ((region, points), limit) in places().zip(limits) {
+            let error = largest_relative_error(candidate, &points());
+            println!("{name} on {region}: {error:.3e}, {:?}", candidate.form.op_count());
             if error.is_nan() || error > limit {
-                faults.push(format!("{name} on {}: {error:e}", region.name));
+                faults.push(format!("{name} on {region}: {error:e}"));
             }
         }
     }
@@ -68,29 +52,32 @@ fn every_form_is_finite_on_finite_bands() {
     bounds.extend(bounds.clone().iter().map(|x| -x));
     let pairs = bounds.iter().flat_map(|&a| bounds.iter().map(move |&b| (a, b))).collect();
     let table = super::regions::table(pairs, "far bounds");
-    let forms = forms();
-    let bands = forms.iter().filter(|form| form.reference.as_deref() == Some(REFERENCE.name));
-    assert_eq!(bands.clone().count(), 8);
-    for entry in bands {
-        let values = in_f32(&load(entry), &table);
+    let candidates = crate::effects::written(&EFFECT);
+    let takes_bounds = |of: &&std::sync::Arc<Candidate>| of.form.input_columns() == ["x0", "x1"];
+    let bands: Vec<_> = candidates.iter().filter(takes_bounds).collect();
+    assert_eq!(bands.len(), 8);
+    for candidate in bands {
+        let values = candidate.values_f32_at(&table).expect("a registered form evaluates");
         let bad = values.iter().position(|v| !v.is_finite());
         let at = bad.map(|row| (table.columns[0].values[row], table.columns[1].values[row]));
-        assert!(at.is_none(), "{} on {at:?}", entry.name);
+        assert!(at.is_none(), "{} on {at:?}", candidate.name);
     }
 }
 
 #[test]
 fn regions_hold_bands_in_f32() {
-    for (region, least) in
-        [(LOBES, 12_000), (SCENE_BANDS, 5990), (NARROW, 5900), (HARD_CASES, 1000)]
-    {
-        for table in
-            [Some((region.points)()), region.fitted.map(|fitted| fitted())].into_iter().flatten()
-        {
-            let (x0, x1) = (&table.columns[0].values, &table.columns[1].values);
-            assert!(x0.len() >= least, "{}: {}", region.name, x0.len());
-            assert!(x0.iter().chain(x1).all(|&x| x == f64::from(x as f32)), "{}", region.name);
-            assert!(x0.iter().zip(x1).all(|(a, b)| a != b), "{}", region.name);
-        }
+    let fitted = REGIONS.iter().filter_map(|&(name, _, fitted)| Some((name, fitted?)));
+    for (region, points) in places().chain(fitted) {
+        let least = match region {
+            "lobes" => 12_000,
+            "scene bands" => 5990,
+            "narrow bands" => 5900,
+            _ => 1000,
+        };
+        let table = points();
+        let (x0, x1) = (&table.columns[0].values, &table.columns[1].values);
+        assert!(x0.len() >= least, "{region}: {}", x0.len());
+        assert!(x0.iter().chain(x1).all(|&x| x == f64::from(x as f32)), "{region}");
+        assert!(x0.iter().zip(x1).all(|(a, b)| a != b), "{region}");
     }
 }

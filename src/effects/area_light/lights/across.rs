@@ -74,13 +74,9 @@ impl Lobe {
     /// [`DomainError`] for a light without a range of ξ₁ and where the sum is not known to converge.
     pub(super) fn integral(self, light: &impl Sliced) -> Result<f64, DomainError> {
         let [low, high] = light.xi_1_range();
-        if low.is_nan() || high.is_nan() {
-            return Err(DomainError {
-                quantity: "extent of the light along the scratch",
-                expected: "a range of numbers",
-                got: f64::NAN,
-            });
-        }
+        let known = !low.is_nan() && !high.is_nan();
+        let extent = "extent of the light along the scratch";
+        DomainError::unless(known, extent, f64::NAN, "a range of numbers")?;
         if low >= high {
             return Ok(0.0);
         }
@@ -137,18 +133,10 @@ impl Lobe {
             panels[index] = panel(piece, from, middle);
             panels.push(panel(piece, middle, to));
         }
-        if !self.is_promised(&panels) {
-            return Err(DomainError {
-                quantity: "estimated relative error of the integral across the scratch",
-                expected: "[0, 1e-9]",
-                got: estimated_error(&panels),
-            });
-        }
-        panels.sort_by(|a, b| {
-            (a.piece[0], a.from)
-                .partial_cmp(&(b.piece[0], b.from))
-                .unwrap_or(std::cmp::Ordering::Equal)
-        });
+        let error = "estimated relative error of the integral across the scratch";
+        let promised = self.is_promised(&panels);
+        DomainError::unless(promised, error, estimated_error(&panels), "[0, 1e-9]")?;
+        panels.sort_by(|a, b| a.piece[0].total_cmp(&b.piece[0]).then(a.from.total_cmp(&b.from)));
         Ok(panels.iter().map(|panel| panel.integral).sum())
     }
 

@@ -5,66 +5,19 @@ use std::f64::consts::{PI, TAU};
 use super::draws::Draw;
 use super::errors::{exact, light_of, named, relative_l2, single};
 use super::regions::REGIONS;
-use crate::effect::claim::REPORT;
-use crate::effect::{Candidates, Claim, ClaimError, Found};
+use crate::effect::claim::Check;
+use crate::effect::{Candidates, ClaimError, Found};
 
-pub(in super::super) const CLAIMS: [Claim<Candidates>; 8] = [
-    Claim {
-        name: "exponent",
-        place: "velinov2018 eq. 25",
-        printed: "exp(-sigma^2 k^2 xi_1)",
-        command: REPORT,
-        check: exponent,
-    },
-    Claim {
-        name: "largest_deviation",
-        place: "velinov2018 eq. 26",
-        printed: "lambda_max = 750 um, s_max = lambda_max/(2 sqrt(2 pi sigma)) = 1.40674e-3",
-        command: REPORT,
-        check: largest_deviation,
-    },
-    Claim {
-        name: "disc",
-        place: "velinov2018 eq. 31",
-        printed: "the boundary of a sphere is the disc of its radius at the distance of its centre",
-        command: REPORT,
-        check: disc,
-    },
-    Claim {
-        name: "second_root",
-        place: "velinov2018 eq. 35 and 40",
-        printed: "v = (-(b + sgn(b) sqrt(D))/(c - t))^(±1)",
-        command: REPORT,
-        check: second_root,
-    },
-    Claim {
-        name: "sign_of_zero",
-        place: "velinov2018 eq. 40",
-        printed: "sgn(b), of the coefficient of the sine",
-        command: REPORT,
-        check: sign_of_zero,
-    },
-    Claim {
-        name: "coherence",
-        place: "velinov2018 fig. 11",
-        printed: "sigma = 10 nm",
-        command: REPORT,
-        check: coherence,
-    },
-    Claim {
-        name: "single_line",
-        place: "velinov2018 §3.4, eq. 26",
-        printed: "the Gaussian is so narrow that one line stands for all",
-        command: REPORT,
-        check: single_line,
-    },
-    Claim {
-        name: "normalization",
-        place: "velinov2018 §3.4.1",
-        printed: "can be used without performing extraneous normalization",
-        command: REPORT,
-        check: normalization,
-    },
+/// Checks of the claims, by name.
+pub(in super::super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+    ("exponent", exponent),
+    ("largest_deviation", largest_deviation),
+    ("disc", disc),
+    ("second_root", second_root),
+    ("sign_of_zero", sign_of_zero),
+    ("coherence", coherence),
+    ("single_line", single_line),
+    ("normalization", normalization),
 ];
 
 fn exponent(_: &Candidates) -> Result<Found, ClaimError> {
@@ -233,14 +186,14 @@ fn on_regions(
 ) -> Result<(Vec<f64>, String), ClaimError> {
     let mut numbers = Vec::new();
     let mut words = Vec::new();
-    for region in &REGIONS {
-        let Some(fitted) = region.fitted else { continue };
+    for (region, _, fitted) in REGIONS {
+        let Some(fitted) = fitted else { continue };
         let points = fitted();
         let (light, reference) = light_of(&points);
         let values = |across: &str| single(named(candidates, light, across)?, &points);
         let (number, shown) = found(&values, &exact(reference, &points)?)?;
         numbers.push(number);
-        words.push(format!("{} {shown}", region.name));
+        words.push(format!("{region} {shown}"));
     }
     Ok((numbers, words.join(", ")))
 }

@@ -2,16 +2,15 @@
 
 use rayon::prelude::*;
 
-use super::columns::SPHERE as SPHERE_COLUMNS;
-use super::{SPHERE, TRIANGLE};
 use crate::effect::{Candidate, Candidates, ClaimError, DomainError, Reference};
+use crate::effects::area_light::EFFECT;
 use crate::numeric::statistics;
 use crate::table::Table;
 
 /// The light whose arguments the columns are, and its reference.
 pub(super) fn light_of(points: &Table) -> (&'static str, &'static Reference) {
-    let sphere = points.columns.len() == SPHERE_COLUMNS.len();
-    if sphere { ("sphere", &SPHERE) } else { ("triangle", &TRIANGLE) }
+    let light = if points.column("radius").is_some() { "sphere" } else { "triangle" };
+    (light, EFFECT.reference(&format!("{light}_light")))
 }
 
 /// The candidate `area_light/light_across`.

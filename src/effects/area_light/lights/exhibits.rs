@@ -1,14 +1,15 @@
 //! What is shown of the lights: error against the size of the light, the width of the lobe and the
 //! direction of an edge, the cheapest form for an error, and the hard cases.
 
-use super::columns::{SPHERE, TRIANGLE, sphere_row, table, triangle_row};
-use super::draws::{Draw, limbs};
+use super::draws::{Draw, limbs, sphere_row, table, triangle_row};
 use super::errors::{exact, light_of, named, relative_l2, single};
 use super::hard_exhibit::hard_cases;
 use super::regions::{KS, REGIONS};
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Cell, Figure, PrintedTable, Section};
-use crate::effect::{Candidates, ClaimError, Quantity};
+use super::{SPHERE, TRIANGLE};
+use crate::document::plot::Series;
+use crate::document::{Cell, Section};
+use crate::effect::{Candidates, ClaimError, Exhibit};
+use crate::effects::area_light::TEXTS;
 
 /// What is done across the slices, in order of the number of slices.
 const ACROSS: [(&str, &str); 8] = [
@@ -31,80 +32,47 @@ pub(in super::super) fn exhibits(candidates: &Candidates) -> Result<Vec<Section>
 
 fn sweeps(candidates: &Candidates) -> Result<Section, ClaimError> {
     let radii: Vec<f64> = (0..9).map(|i| 1e-3 * 10_f64.powf(f64::from(i) * 0.36)).collect();
-    let by_radius = figure(
-        candidates,
-        &SPHERE,
-        ("light-angular-radius", "k sigma = 250, the origin line anywhere across the sphere"),
-        ("Error against the angular radius of a sphere", PlotAxis::log("angular radius", "rad")),
-        &radii,
-        |draw, radius| {
-            let axis = draw.direction(0.2, 1.0);
-            sphere_across(draw, axis, 250.0, radius)
-        },
-    )?;
+    let by_radius = curves(candidates, SPHERE, &radii, |draw, radius| {
+        let axis = draw.direction(0.2, 1.0);
+        sphere_across(draw, axis, 250.0, radius)
+    })?;
     let lobes: Vec<f64> = (0..9).map(|i| 10.0 * 10_f64.powf(f64::from(i) * 0.3)).collect();
-    let by_ks = figure(
-        candidates,
-        &SPHERE,
-        ("light-coherence", "angular radius 0.05 rad, the origin line anywhere across the sphere"),
-        ("Error against the width of the lobe", PlotAxis::log("k sigma", "1")),
-        &lobes,
-        |draw, ks| {
-            let axis = draw.direction(0.2, 1.0);
-            sphere_across(draw, axis, ks, 0.05)
-        },
-    )?;
+    let by_ks = curves(candidates, SPHERE, &lobes, |draw, ks| {
+        let axis = draw.direction(0.2, 1.0);
+        sphere_across(draw, axis, ks, 0.05)
+    })?;
     let angles: Vec<f64> = (0..9).map(|i| 2.0 + 10.5 * f64::from(i)).collect();
-    let by_angle = figure(
-        candidates,
-        &TRIANGLE,
-        (
-            "light-edge-angle",
-            "k sigma = 250, a large triangle with an edge through the mirror direction, at this angle to the \
-             origin line",
-        ),
-        ("Error against the angle of an edge through the lobe", PlotAxis::linear("angle", "deg")),
-        &angles,
-        |draw, angle| edge_through(draw, 250.0, angle.to_radians()),
-    )?;
-    Ok(Section::new("Across the lobe: one slice or several")
-        .paragraph(
-            "velinov2018 integrates a light along the single line xi_1 = 0, since the Gaussian across it \
-             is narrow (eq. 26). Relative L2 error of that line, of Gauss-Hermite nodes and of \
-             Gauss-Legendre nodes placed in what the light covers of the Gaussian, over 60 draws of \
-             light, view and scratch per abscissa, in f32.",
-        )
-        .block(by_radius)
-        .block(by_ks)
-        .block(by_angle))
+    let by_angle = curves(candidates, TRIANGLE, &angles, |draw, angle| {
+        edge_through(draw, 250.0, angle.to_radians())
+    })?;
+    let exhibit = Exhibit::of(TEXTS, "sweeps", &[]);
+    Ok(exhibit.figure(by_radius).figure(by_ks).figure(by_angle).section())
 }
 
-fn figure<const N: usize>(
+/// Errors of what is done across the slices, over draws of a light for every abscissa.
+fn curves<const N: usize>(
     candidates: &Candidates,
-    arguments: &[Quantity; N],
-    (stem, caption): (&str, &str),
-    (title, x): (&str, PlotAxis),
+    reference: &str,
     abscissae: &[f64],
     row: impl Fn(&mut Draw, f64) -> [f64; N],
-) -> Result<Figure, ClaimError> {
+) -> Result<Vec<Series>, ClaimError> {
     let mut draw = Draw::new(51);
     let rows: Vec<[f64; N]> =
         (0..abscissae.len() * DRAWS).map(|at| row(&mut draw, abscissae[at / DRAWS])).collect();
-    let points = table(arguments, &rows, stem);
+    let points = table(reference, &rows, "draws for a figure");
     let (light, reference) = light_of(&points);
     let exact = exact(reference, &points)?;
-    let mut plot = Plot::new(title, x, PlotAxis::log("relative L2 error", "1"));
-    for (across, name) in ACROSS.into_iter().filter(|(across, _)| has(light, across)) {
+    let curve = |(across, name): (&str, &str)| {
         let values = single(named(candidates, light, across)?, &points)?;
         let errors = values.chunks(DRAWS).zip(exact.chunks(DRAWS)).map(|(v, e)| relative_l2(v, e));
         let curve = abscissae.iter().copied().zip(errors);
-        plot = plot.series(match across {
+        Ok(match across {
             "line_printed" => Series::dashed(name, curve),
             _ if across.starts_with("covered") => Series::line(name, curve).strong(),
             _ => Series::line(name, curve),
-        });
-    }
-    Ok(Figure::new(stem, caption, plot))
+        })
+    };
+    ACROSS.into_iter().filter(|(across, _)| has(light, across)).map(curve).collect()
 }
 
 /// Whether there is such a form: only triangles have a middle vertex.
@@ -144,16 +112,13 @@ const SLICES: [&str; 7] = [
     "hermite_seven_medium",
 ];
 /// Errors asked for.
-const ASKED: [(f64, &str); 3] = [(0.1, "10 %"), (0.01, "1 %"), (0.001, "0.1 %")];
+const ASKED: [f64; 3] = [0.1, 0.01, 0.001];
 
 fn cheapest(candidates: &Candidates) -> Result<Section, ClaimError> {
-    let mut columns = vec![("regime".to_owned(), ""), ("k sigma".to_owned(), "1")];
-    columns.extend(ASKED.map(|(_, words)| (words.to_owned(), "")));
-    columns.push(("single line, published Si".to_owned(), "1"));
-    columns.extend(SLICES.map(|name| (name.replace("_medium", ""), "1")));
+    let columns = SLICES.map(|name| (name.replace("_medium", ""), "1".to_owned()));
     let mut rows = Vec::new();
-    for region in &REGIONS {
-        let Some(fitted) = region.fitted else { continue };
+    for (region, _, fitted) in REGIONS {
+        let Some(fitted) = fitted else { continue };
         let points = fitted();
         let (light, reference) = light_of(&points);
         let exact = exact(reference, &points)?;
@@ -172,8 +137,8 @@ fn cheapest(candidates: &Candidates) -> Result<Section, ClaimError> {
                 .iter()
                 .map(|all| all.as_ref().map(|all| relative_l2(&pick(all), &pick(&exact))))
                 .collect();
-            let mut row = vec![region.name.into(), ks.into()];
-            row.extend(ASKED.map(|(limit, _)| {
+            let mut row = vec![Cell::text(*region), ks.into()];
+            row.extend(ASKED.map(|limit| {
                 let mut known = SLICES.iter().zip(errors.iter().skip(1));
                 let found = known.find(|(_, error)| error.is_some_and(|error| error <= limit));
                 Cell::text(found.map_or("none".into(), |(name, _)| format!("`{name}`")))
@@ -182,9 +147,5 @@ fn cheapest(candidates: &Candidates) -> Result<Section, ClaimError> {
             rows.push(row);
         }
     }
-    let caption = "Cheapest form, by the number of slices, that stays below an error, and the relative L2 error of \
-                   each: 80 draws per row, in f32";
-    Ok(Section::new("The cheapest form for an error, by regime")
-        .paragraph("Costs in time are those that `striae bench` measures.")
-        .block(PrintedTable::of_rows(caption, columns, rows)))
+    Ok(Exhibit::of(TEXTS, "cheapest", &[]).wider_table(columns, rows).section())
 }

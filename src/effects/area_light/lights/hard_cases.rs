@@ -2,38 +2,18 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::columns::{SPHERE, TRIANGLE, sphere_row, table, triangle_row};
-use super::draws::{Draw, limbs, unit};
-use crate::effect::Region;
+use super::draws::{Draw, limbs, sphere_row, table, triangle_row};
+use super::vector::{cross, unit};
+use super::{SPHERE, TRIANGLE};
+use crate::effect::Points;
 use crate::table::Table;
 
 /// Cases of each kind.
 const EACH: usize = 400;
 
-/// Hard cases of the lights.
-pub(in super::super) const HARD_CASES: [Region; 2] = [
-    Region {
-        name: "hard spheres",
-        description: "limbs on the origin line and next to it (tangency, a double root), the axis along t, b \
-                      and n, t = 0, b = 0, the mirror direction, r >= distance and r = distance to \
-                      rounding, lights below, at and across the horizon, grazing to 89.9 degrees and \
-                      beyond, kW from 0.6 to 6283, k sigma from 1 to 1e4, far lobes, a limb at q = 0, \
-                      lights of 1e-6 rad, lengths from 1e-6 to 1e6: 400 of each",
-        points: spheres,
-        ..Region::EMPTY
-    },
-    Region {
-        name: "hard triangles",
-        description: "vertices on the origin line, edges along it and tangent to it (a double root), \
-                      edges in the planes t = 0 and b = 0, slivers, repeated and collinear vertices, the \
-                      shaded point in the plane of the triangle and at a vertex, triangles below, at and \
-                      across the horizon, around the zenith and the nadir, grazing views to 89.9 degrees \
-                      and beyond, kW from 0.6 to 6283, k sigma from 1 to 1e4, far lobes, a crossing at \
-                      q = 0, lights of 1e-5 rad, lengths from 1e-6 to 1e6: 400 of each",
-        points: triangles,
-        ..Region::EMPTY
-    },
-];
+/// Hard cases of the lights, by name.
+pub(in super::super) const HARD_CASES: &[(&str, Points)] =
+    &[("hard spheres", spheres), ("hard triangles", triangles)];
 
 /// A sphere seen under `half_angle` around `axis`, for a view.
 struct Sphere {
@@ -79,20 +59,19 @@ fn nudge(draw: &mut Draw) -> f64 {
     draw.sign() * draw.one_of(&sizes)
 }
 
+/// A sphere with a limb on the origin line, but for an offset.
+fn at_limb(draw: &mut Draw, offset: fn(&mut Draw) -> f64) -> Sphere {
+    let sphere = Sphere::any(draw);
+    let limb = draw.one_of(&limbs(sphere.axis, sphere.half_angle));
+    let x = (limb + offset(draw)).clamp(-1.0, 1.0);
+    sphere.with_line_at(x, draw)
+}
+
 const SPHERES: [fn(&mut Draw) -> Sphere; 15] = [
     Sphere::any,
-    |draw| {
-        // A limb tangent to the origin line: a double root.
-        let sphere = Sphere::any(draw);
-        let limb = draw.one_of(&limbs(sphere.axis, sphere.half_angle));
-        sphere.with_line_at(limb, draw)
-    },
-    |draw| {
-        let sphere = Sphere::any(draw);
-        let limb = draw.one_of(&limbs(sphere.axis, sphere.half_angle));
-        let nudge = nudge(draw);
-        sphere.with_line_at((limb + nudge).clamp(-1.0, 1.0), draw)
-    },
+    // A limb tangent to the origin line, a double root, and next to it.
+    |draw| at_limb(draw, |_| 0.0),
+    |draw| at_limb(draw, nudge),
     |draw| {
         let along =
             [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -176,7 +155,7 @@ fn spheres() -> Table {
         .iter()
         .flat_map(|kind| (0..EACH).map(|_| kind(&mut draw).row()).collect::<Vec<_>>())
         .collect();
-    table(&SPHERE, &rows, "hard spheres")
+    table(SPHERE, &rows, "hard spheres")
 }
 
 /// A triangle and a view of it.
@@ -240,8 +219,7 @@ const TRIANGLES: [fn(&mut Draw) -> Triangle; 18] = [
         // The origin line tangent to the great circle of an edge: a double root.
         let triangle = Triangle::any(draw);
         let [a, b, _] = triangle.vertices;
-        let normal =
-            unit([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]);
+        let normal = unit(cross(a, b));
         let x = draw.sign() * normal[1].hypot(normal[2]) + nudge(draw);
         triangle.with_line_at(x, draw)
     },
@@ -371,5 +349,5 @@ fn triangles() -> Table {
         .iter()
         .flat_map(|kind| (0..EACH).map(|_| kind(&mut draw).row()).collect::<Vec<_>>())
         .collect();
-    table(&TRIANGLE, &rows, "hard triangles")
+    table(TRIANGLE, &rows, "hard triangles")
 }

@@ -16,8 +16,9 @@ use rayon::prelude::*;
 
 use super::errors::{row, single};
 use super::hard_cases::HARD_CASES;
-use crate::document::{Cell, PrintedTable, Section};
-use crate::effect::{Candidate, Candidates, ClaimError};
+use crate::document::{Cell, Section};
+use crate::effect::{Candidate, Candidates, ClaimError, Exhibit};
+use crate::effects::area_light::TEXTS;
 use crate::numeric::statistics::percentile;
 use crate::table;
 
@@ -45,7 +46,7 @@ const JUDGED: f64 = 1e-6;
 const HALF_ULP: f64 = 5.960_464_477_539_063e-8;
 
 pub(super) fn hard_cases(candidates: &Candidates) -> Result<Section, ClaimError> {
-    let sets = HARD_CASES.map(|set| (set.points)());
+    let sets = HARD_CASES.iter().map(|(_, points)| points()).collect::<Vec<_>>();
     let named: Vec<_> = sets
         .iter()
         .zip(SHOWN)
@@ -57,34 +58,7 @@ pub(super) fn hard_cases(candidates: &Candidates) -> Result<Section, ClaimError>
             hard_row(name, candidates.get(&format!("area_light/{name}"))?, points)
         })
         .collect::<Result<Vec<_>, ClaimError>>()?;
-    let columns = [
-        ("form", ""),
-        ("cases", "1"),
-        ("not finite", "1"),
-        ("negative", "1"),
-        ("median relative error", "1"),
-        ("99 % below", "1"),
-        ("worst relative error", "1"),
-        ("by rounding of its arguments", "1"),
-        ("its case", ""),
-        ("worst relative to the lobe", "1"),
-        ("its case", ""),
-    ];
-    Ok(Section::new("Hard cases of lights")
-        .paragraph(
-            "f32 against the same form in f64. Light that a limb, an edge or the horizon nearly cuts off is \
-             as uncertain as the rounding of the arguments makes it. So the worst relative error, of values \
-             above 1e-6 of the lobe, stands beside what rounding the arguments of its case may change, \
-             relative too, the sum over arguments moved by half an ulp of f32; and errors are given relative \
-             to sqrt(pi)/ks 2 pi/(kw + pi), the most that the lobe can hold. Left out of the errors: shaded \
-             points on the surface of a sphere to 1e-6, where the light jumps from one half to all of the \
-             hemisphere. On the device: cargo test --release --test lights -- --nocapture.",
-        )
-        .block(PrintedTable::of_rows(
-            "Worst errors over the hard cases, with their rows and arguments",
-            columns,
-            rows,
-        )))
+    Ok(Exhibit::of(TEXTS, "hard_cases", &[]).table(rows).section())
 }
 
 /// Whether the shaded point lies on the surface of the sphere, to 1e-6.

@@ -64,7 +64,6 @@
 
 mod across;
 mod claims;
-mod columns;
 mod draws;
 mod errors;
 mod exhibits;
@@ -74,45 +73,33 @@ mod laws;
 mod polygon;
 mod regions;
 mod sphere;
+mod vector;
 
 pub(super) use claims::CLAIMS;
 pub(super) use exhibits::exhibits;
 pub(super) use hard_cases::HARD_CASES;
-pub(super) use laws::NOT_NEGATIVE;
+pub(super) use laws::LAWS;
 pub(super) use regions::REGIONS;
 
-use crate::effect::{DomainError, Evaluate, Reference, arguments};
+use crate::effect::{DomainError, Scalar, arguments};
 
-/// Sphere lights, as registered.
-pub(super) const SPHERE: Reference = Reference {
-    name: "sphere_light",
-    description: "exp(-(ks xi_1)^2) sinc^2(kw xi_2/2) over the direction cosines of a sphere above the horizon",
-    arguments: &columns::SPHERE,
-    unit: "1",
-    accuracy: "relative error <= 1e-9, or error <= 1e-12 sqrt(pi)/ks 2 pi/(kw + pi), for half-angles from 1e-6 rad \
-               (tests/lights)",
-    source: "velinov2018 eq. 3, 10 and 24; silhouette asin(r/p), both roots",
-    evaluate: Evaluate::Scalar(|point| {
+/// Name of the reference of sphere lights.
+const SPHERE: &str = "sphere_light";
+/// Name of the reference of triangle lights.
+const TRIANGLE: &str = "triangle_light";
+
+/// What lights give, by name.
+pub(super) const REFERENCES: &[(&str, Scalar)] = &[
+    (SPHERE, |point| {
         let [kw, ks, view_x, view_y, x, y, z, radius] = arguments(point)?;
         sphere_light(kw, ks, [view_x, view_y], [x, y, z], radius)
     }),
-};
-
-/// Triangle lights, as registered.
-pub(super) const TRIANGLE: Reference = Reference {
-    name: "triangle_light",
-    description: "exp(-(ks xi_1)^2) sinc^2(kw xi_2/2) over the direction cosines of a triangle above the horizon",
-    arguments: &columns::TRIANGLE,
-    unit: "1",
-    accuracy: "relative error <= 1e-9, or error <= 1e-12 sqrt(pi)/ks 2 pi/(kw + pi), for extents from 1e-6 rad \
-               (tests/lights)",
-    source: "velinov2018 eq. 3, 10 and 24; both roots",
-    evaluate: Evaluate::Scalar(|point| {
+    (TRIANGLE, |point| {
         let [kw, ks, view_x, view_y, rest @ ..]: [f64; 13] = arguments(point)?;
         let [a, b, c] = [0, 3, 6].map(|at| [rest[at], rest[at + 1], rest[at + 2]]);
         polygon_light(kw, ks, [view_x, view_y], &[a, b, c])
     }),
-};
+];
 
 /// What a scratch receives from a sphere light of radiance 1; see [the module](self).
 ///
@@ -135,7 +122,7 @@ pub fn sphere_light(
     finite("view_x", view[0])?;
     finite("centre", centre[0] + centre[1] + centre[2])?;
     positive("radius", radius)?;
-    let distance = centre[0].hypot(centre[1]).hypot(centre[2]);
+    let distance = vector::length(centre);
     finite("distance", distance)?;
     if distance <= radius {
         lobe.integral(&sphere::hemisphere(view))
@@ -163,13 +150,8 @@ pub fn polygon_light(
 ) -> Result<f64, DomainError> {
     let lobe = lobe(kw, ks, view)?;
     finite("view_x", view[0])?;
-    if vertices.len() < 3 {
-        return Err(DomainError {
-            quantity: "number of vertices",
-            expected: "at least 3",
-            got: vertices.len() as f64,
-        });
-    }
+    let count = vertices.len();
+    DomainError::unless(count >= 3, "number of vertices", count as f64, "at least 3")?;
     for vertex in vertices {
         finite("vertex", vertex[0] + vertex[1] + vertex[2])?;
     }
@@ -183,18 +165,12 @@ fn lobe(kw: f64, ks: f64, view: [f64; 2]) -> Result<across::Lobe, DomainError> {
     Ok(across::Lobe { kw, ks, view_y: view[1] })
 }
 
-fn positive(quantity: &'static str, got: f64) -> Result<(), DomainError> {
-    if got > 0.0 && got.is_finite() {
-        return Ok(());
-    }
-    Err(DomainError { quantity, expected: "positive finite numbers", got })
+fn positive(quantity: &'static str, got: f64) -> Result<f64, DomainError> {
+    DomainError::unless(got > 0.0 && got.is_finite(), quantity, got, "positive finite numbers")
 }
 
-fn finite(quantity: &'static str, got: f64) -> Result<(), DomainError> {
-    if got.is_finite() {
-        return Ok(());
-    }
-    Err(DomainError { quantity, expected: "finite numbers", got })
+fn finite(quantity: &'static str, got: f64) -> Result<f64, DomainError> {
+    DomainError::unless(got.is_finite(), quantity, got, "finite numbers")
 }
 
 #[cfg(test)]

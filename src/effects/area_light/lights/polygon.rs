@@ -12,6 +12,7 @@
 //! come in pairs, and the even–odd rule says what is inside for any simple polygon.
 
 use super::across::{Slice, Sliced};
+use super::vector::{cross, length, unit};
 
 /// A part of an edge along which ω_x is monotone.
 #[derive(Debug, Clone, Copy)]
@@ -116,7 +117,7 @@ fn add_edge(
 ) {
     let step = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
     let normal = cross(from, step);
-    let length = normal[0].hypot(normal[1]).hypot(normal[2]);
+    let length = length(normal);
     if length == 0.0 {
         return;
     }
@@ -203,13 +204,4 @@ fn in_units(vertices: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let exponent = largest.clamp(1e-300, 1e300).log2().floor();
     let unit = exponent.exp2();
     vertices.iter().map(|vertex| vertex.map(|component| component / unit)).collect()
-}
-
-fn unit(vector: [f64; 3]) -> [f64; 3] {
-    let length = vector[0].hypot(vector[1]).hypot(vector[2]);
-    vector.map(|component| component / length)
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

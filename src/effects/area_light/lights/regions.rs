@@ -4,9 +4,10 @@
 //! Widths and wavelengths are those of velinov2018's scenes; kσ is 60, 250 or 1000 (a coherence
 //! radius of 5, 22 and 88 µm at 550 nm, a lobe of 1/kσ), and errors are measured for each.
 
-use super::columns::{SPHERE, TRIANGLE, sphere_row, table, triangle_row};
-use super::draws::{Draw, limbs, unit};
-use crate::effect::{Region, Yardstick};
+use super::draws::{Draw, limbs, sphere_row, table, triangle_row};
+use super::vector::unit;
+use super::{SPHERE, TRIANGLE};
+use crate::effect::Points;
 use crate::table::Table;
 
 /// Points that are judged, per region.
@@ -16,122 +17,65 @@ const FITTED: usize = 240;
 /// kσ by which regions are grouped.
 pub(super) const KS: [f64; 3] = [60.0, 250.0, 1000.0];
 
-/// A region, from the draw of one of its lights.
+/// A region by name, from the draw of one of its lights.
 macro_rules! region {
-    ($name:literal, $description:literal, $seed:literal, $rows:ident, $one:expr) => {
-        Region {
-            name: $name,
-            description: $description,
-            points: || $rows($seed, POINTS, $name, $one),
-            fitted: Some(|| $rows($seed + 1000, FITTED, $name, $one)),
-            by: Some("ks"),
-            yardstick: Yardstick::RelativeL2,
-        }
+    ($name:literal, $seed:literal, $rows:ident, $one:expr) => {
+        (
+            $name,
+            || $rows($seed, POINTS, $name, $one),
+            Some(|| $rows($seed + 1000, FITTED, $name, $one)),
+        )
     };
 }
 
 /// Regions of the lights.
-pub(in super::super) const REGIONS: [Region; 8] = [
-    region!(
-        "small spheres",
-        "half-angles of 0.001 to 0.05 rad, log-uniformly, with the origin line across the sphere or \
-         up to 2/ks beside it: as large as the lobe is wide, or smaller",
-        11,
-        spheres,
-        |draw, ks| {
-            let half_angle = draw.log_between(0.001, 0.05);
-            let axis = draw.direction(0.06, 1.0);
-            (axis, half_angle, across(draw, axis, half_angle, 2.0 / ks))
-        }
-    ),
-    region!(
-        "large spheres",
-        "half-angles of 0.05 to 0.8 rad, log-uniformly, with the origin line anywhere across the \
-         sphere",
-        12,
-        spheres,
-        |draw, _| {
-            let half_angle = draw.log_between(0.05, 0.8);
-            let axis = draw.direction(0.0, 1.0);
-            (axis, half_angle, across(draw, axis, half_angle, 0.0))
-        }
-    ),
-    region!(
-        "limb of a sphere",
-        "half-angles of 0.02 to 0.8 rad with the limb within 2/ks of the origin line",
-        13,
-        spheres,
-        |draw, ks| {
-            let half_angle = draw.log_between(0.02, 0.8);
-            let axis = draw.direction(0.1, 1.0);
-            let limb = draw.one_of(&limbs(axis, half_angle));
-            (axis, half_angle, axis[0] - limb + draw.between(-2.0, 2.0) / ks)
-        }
-    ),
-    region!(
-        "grazing spheres",
-        "half-angles of 0.02 to 0.5 rad, the centre within a radius of the horizon, the origin line \
-         across the sphere",
-        14,
-        spheres,
-        |draw, _| {
-            let half_angle = draw.log_between(0.02, 0.5);
-            let axis = draw.direction(-0.9 * half_angle.sin(), half_angle.sin());
-            (axis, half_angle, across(draw, axis, half_angle, 0.0))
-        }
-    ),
-    region!(
-        "small triangles",
-        "triangles that reach 0.001 to 0.05 rad from their centre, log-uniformly, with the origin line \
-         through them or up to 2/ks beside the centre",
-        15,
-        triangles,
-        |draw, ks| {
-            let centre = draw.direction(0.06, 1.0);
-            let size = draw.log_between(0.001, 0.05);
-            let vertices = draw.triangle(centre, size);
-            let view_x = through(draw, vertices) + draw.between(-2.0, 2.0) / ks;
-            (vertices, view_x)
-        }
-    ),
-    region!(
-        "large triangles",
-        "triangles that reach 0.1 to 1 from a centre at distance 1, log-uniformly, with the origin \
-         line through them",
-        16,
-        triangles,
-        |draw, _| {
-            let centre = draw.direction(0.3, 1.0);
-            let size = draw.log_between(0.1, 1.0);
-            let vertices = draw.triangle(centre, size);
-            (vertices, through(draw, vertices))
-        }
-    ),
-    region!(
-        "vertex on the line",
-        "large triangles with a vertex within 2/ks of the origin line",
-        17,
-        triangles,
-        |draw, ks| {
-            let centre = draw.direction(0.5, 1.0);
-            let size = draw.log_between(0.1, 0.5);
-            let vertices = draw.triangle(centre, size);
-            (vertices, -unit(vertices[0])[0] + draw.between(-2.0, 2.0) / ks)
-        }
-    ),
-    region!(
-        "grazing triangles",
-        "triangles across the horizon: they reach 0.1 to 0.8 from a centre at distance 1 that is at \
-         most half of that from the horizon",
-        18,
-        triangles,
-        |draw, _| {
-            let size = draw.log_between(0.1, 0.8);
-            let centre = draw.direction(-0.5 * size, 0.5 * size);
-            let vertices = draw.triangle(centre, size);
-            (vertices, through(draw, vertices))
-        }
-    ),
+pub(in super::super) const REGIONS: &[(&str, Points, Option<Points>)] = &[
+    region!("small spheres", 11, spheres, |draw, ks| {
+        let half_angle = draw.log_between(0.001, 0.05);
+        let axis = draw.direction(0.06, 1.0);
+        (axis, half_angle, across(draw, axis, half_angle, 2.0 / ks))
+    }),
+    region!("large spheres", 12, spheres, |draw, _| {
+        let half_angle = draw.log_between(0.05, 0.8);
+        let axis = draw.direction(0.0, 1.0);
+        (axis, half_angle, across(draw, axis, half_angle, 0.0))
+    }),
+    region!("limb of a sphere", 13, spheres, |draw, ks| {
+        let half_angle = draw.log_between(0.02, 0.8);
+        let axis = draw.direction(0.1, 1.0);
+        let limb = draw.one_of(&limbs(axis, half_angle));
+        (axis, half_angle, axis[0] - limb + draw.between(-2.0, 2.0) / ks)
+    }),
+    region!("grazing spheres", 14, spheres, |draw, _| {
+        let half_angle = draw.log_between(0.02, 0.5);
+        let axis = draw.direction(-0.9 * half_angle.sin(), half_angle.sin());
+        (axis, half_angle, across(draw, axis, half_angle, 0.0))
+    }),
+    region!("small triangles", 15, triangles, |draw, ks| {
+        let centre = draw.direction(0.06, 1.0);
+        let size = draw.log_between(0.001, 0.05);
+        let vertices = draw.triangle(centre, size);
+        let view_x = through(draw, vertices) + draw.between(-2.0, 2.0) / ks;
+        (vertices, view_x)
+    }),
+    region!("large triangles", 16, triangles, |draw, _| {
+        let centre = draw.direction(0.3, 1.0);
+        let size = draw.log_between(0.1, 1.0);
+        let vertices = draw.triangle(centre, size);
+        (vertices, through(draw, vertices))
+    }),
+    region!("vertex on the line", 17, triangles, |draw, ks| {
+        let centre = draw.direction(0.5, 1.0);
+        let size = draw.log_between(0.1, 0.5);
+        let vertices = draw.triangle(centre, size);
+        (vertices, -unit(vertices[0])[0] + draw.between(-2.0, 2.0) / ks)
+    }),
+    region!("grazing triangles", 18, triangles, |draw, _| {
+        let size = draw.log_between(0.1, 0.8);
+        let centre = draw.direction(-0.5 * size, 0.5 * size);
+        let vertices = draw.triangle(centre, size);
+        (vertices, through(draw, vertices))
+    }),
 ];
 
 fn spheres(
@@ -154,7 +98,7 @@ fn spheres(
             rows.push(sphere_row(draw.kw(), ks, view, centre, distance * half_angle.sin()));
         }
     }
-    table(&SPHERE, &rows, origin)
+    table(SPHERE, &rows, origin)
 }
 
 /// ξ₁ of the axis such that the origin line crosses the sphere or passes it by up to `beside`.
@@ -179,7 +123,7 @@ fn triangles(
             rows.push(triangle_row(draw.kw(), ks, view, vertices));
         }
     }
-    table(&TRIANGLE, &rows, origin)
+    table(TRIANGLE, &rows, origin)
 }
 
 /// The view for which the origin line goes through a point of the triangle.

@@ -13,6 +13,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::across::{Slice, Sliced};
+use super::vector::unit;
 
 /// The cone under which a sphere is seen, from the side of the view.
 #[derive(Debug, Clone, Copy)]
@@ -33,8 +34,7 @@ pub(super) struct Cone {
 impl Cone {
     /// The cone of half-angle `half_angle` around `axis`, not zero, for a view of the given tangential parts.
     pub(super) fn new(axis: [f64; 3], half_angle: f64, view: [f64; 2]) -> Self {
-        let length = axis[0].hypot(axis[1]).hypot(axis[2]);
-        let axis = axis.map(|component| component / length);
+        let axis = unit(axis);
         Self {
             latitude: axis[0].atan2(axis[1].hypot(axis[2])),
             azimuth: axis[2].atan2(axis[1]),

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::vector::{cross, length};
 use super::{polygon_light, sphere_light};
 use crate::effects::area_light::band::sinc_squared_band;
 
@@ -15,22 +16,22 @@ const STATED: f64 = 1e-9;
 /// With a wide lobe (kw, ks → 0) the integral is the projected solid angle of the light.
 #[test]
 fn projected_solid_angle() {
-    // A sphere overhead: π sin²α.
-    let value = sphere_light(1e-6, 1e-6, [0.0; 2], [0.0, 0.0, 2.0], 1.0).unwrap();
-    assert!(relative(value, PI / 4.0) < 1e-10, "{value}");
-    // A tilted one, all above the horizon: π sin²α cos θ.
-    let value = sphere_light(1e-6, 1e-6, [0.3, 0.1], [1.2, 0.5, 1.7], 0.4).unwrap();
     let distance = (1.2_f64.powi(2) + 0.5_f64.powi(2) + 1.7_f64.powi(2)).sqrt();
-    let expected = PI * (0.4 / distance).powi(2) * 1.7 / distance;
-    assert!(relative(value, expected) < 1e-10, "{value} {expected}");
-    // From inside: the whole disc.
-    let value = sphere_light(1e-6, 1e-6, [0.0; 2], [0.1, 0.0, -0.2], 1.0).unwrap();
-    assert!(relative(value, PI) < 1e-10, "{value}");
-    // Half of one whose centre lies on the horizon: measured by Lambert's formula below.
     let sine: f64 = 0.3;
-    let value = sphere_light(1e-6, 1e-6, [0.0; 2], [1.0, 0.0, 0.0], sine).unwrap();
-    let expected = sine.asin() - sine * (1.0 - sine * sine).sqrt();
-    assert!(relative(value, expected) < 1e-9, "{value} {expected}");
+    let cases = [
+        // A sphere overhead: π sin²α.
+        ([0.0; 2], [0.0, 0.0, 2.0], 1.0, PI / 4.0, 1e-10),
+        // A tilted one, all above the horizon: π sin²α cos θ.
+        ([0.3, 0.1], [1.2, 0.5, 1.7], 0.4, PI * (0.4 / distance).powi(2) * 1.7 / distance, 1e-10),
+        // From inside: the whole disc.
+        ([0.0; 2], [0.1, 0.0, -0.2], 1.0, PI, 1e-10),
+        // Half of one whose centre lies on the horizon: measured by Lambert's formula below.
+        ([0.0; 2], [1.0, 0.0, 0.0], sine, sine.asin() - sine * (1.0 - sine * sine).sqrt(), 1e-9),
+    ];
+    for (view, centre, radius, expected, tolerance) in cases {
+        let value = sphere_light(1e-6, 1e-6, view, centre, radius).unwrap();
+        assert!(relative(value, expected) < tolerance, "{value} {expected}");
+    }
 }
 
 /// Lambert's formula: ½ Σ (angle of the edge) (n·Γ) for a polygon above the horizon.
@@ -39,9 +40,8 @@ fn polygon_projected_solid_angle() {
     let vertices = [[0.5, -0.2, 1.0], [1.5, 0.3, 0.8], [0.4, 0.9, 1.3], [-0.2, 0.5, 1.237]];
     let mut lambert = 0.0;
     for (a, b) in vertices.iter().zip(vertices.iter().cycle().skip(1)) {
-        let cross =
-            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        let length = cross.iter().map(|c| c * c).sum::<f64>().sqrt();
+        let cross = cross(*a, *b);
+        let length = length(cross);
         let dot = a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         lambert += 0.5 * length.atan2(dot) * cross[2] / length;
     }
@@ -55,15 +55,19 @@ fn symmetries_of_polygons() {
     let (kw, ks, view) = (40.0, 60.0, [0.1, -0.2]);
     let vertices = [[0.5, -0.2, 0.6], [-1.5, 0.3, 0.8], [0.4, 0.9, -0.3]];
     let value = polygon_light(kw, ks, view, &vertices).unwrap();
-    let mut other = vertices;
-    other.rotate_left(1);
-    assert!(relative(polygon_light(kw, ks, view, &other).unwrap(), value) < 1e-9);
-    other.reverse();
-    assert!(relative(polygon_light(kw, ks, view, &other).unwrap(), value) < 1e-9);
-    let mirrored = vertices.map(|[x, y, z]| [-x, y, z]);
-    assert!(relative(polygon_light(kw, ks, [-0.1, -0.2], &mirrored).unwrap(), value) < 1e-9);
-    let mirrored = vertices.map(|[x, y, z]| [x, -y, z]);
-    assert!(relative(polygon_light(kw, ks, [0.1, 0.2], &mirrored).unwrap(), value) < 1e-9);
+    let mut turned = vertices;
+    turned.rotate_left(1);
+    let mut reversed = turned;
+    reversed.reverse();
+    let same = [
+        (view, turned),
+        (view, reversed),
+        ([-0.1, -0.2], vertices.map(|[x, y, z]| [-x, y, z])),
+        ([0.1, 0.2], vertices.map(|[x, y, z]| [x, -y, z])),
+    ];
+    for (view, vertices) in same {
+        assert!(relative(polygon_light(kw, ks, view, &vertices).unwrap(), value) < 1e-9);
+    }
 }
 
 /// A polygon cut in two parts is the sum of the parts, with edges across the origin line.

@@ -1,8 +1,7 @@
-use super::GREEN_NM;
-use super::grating::line;
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Figure, PrintedTable, Section};
-use crate::effect::{ClaimError, DomainError};
+use super::{GREEN_NM, TEXTS, line};
+use crate::document::Section;
+use crate::document::plot::Series;
+use crate::effect::{ClaimError, DomainError, Exhibit};
 use crate::effects::diffraction::far_field::{FarField, FarFieldTransform};
 use crate::effects::diffraction::reference::{rectangular_order_power, sinusoid_order_power};
 use crate::effects::diffraction::surfaces::Profile;
@@ -31,11 +30,7 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
             powers.push(power(&field, order));
         }
     }
-    let mut plot = Plot::new(
-        "Sinusoidal relief",
-        PlotAxis::linear("amplitude of the phase a", "rad"),
-        PlotAxis::linear("power", "1"),
-    );
+    let mut curves = Vec::new();
     let mut rows = Vec::new();
     for (order, powers) in (0..).zip(&found) {
         let exact = |phase: f64| sinusoid_order_power(order, phase);
@@ -44,9 +39,8 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
             .map(|phase| Ok((phase, exact(phase)?)))
             .collect::<Result<Vec<_>, DomainError>>()?;
         let pairs = phases.iter().copied().zip(powers.iter().copied());
-        plot = plot
-            .series(Series::line(format!("J_{order}²"), fine))
-            .series(Series::markers(format!("far field, m = {order}"), pairs));
+        curves.push(Series::line(format!("J_{order}²"), fine));
+        curves.push(Series::markers(format!("far field, m = {order}"), pairs));
         let mut worst = 0.0_f64;
         for (phase, power) in phases.iter().zip(powers) {
             worst = worst.max((power - exact(*phase)?).abs());
@@ -58,25 +52,6 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
         let found = power(&field, order);
         rows.push(vec![f64::from(order).into(), worst.into(), expected.into(), found.into()]);
     }
-    Ok(Section::new("Orders of gratings")
-        .paragraph(format!(
-            "Powers of the orders in the far field of gratings of 32 periods, 64 samples each, beside \
-             the closed forms. Over all frequencies the powers sum to 1 within {parseval:.1e}. Half a \
-             sample at each edge of the rectangle is cut: its powers agree to the sampling."
-        ))
-        .block(Figure::new(
-            "diffraction-orders",
-            "Share of the power in order m over the amplitude of the phase a = k w b.",
-            plot,
-        ))
-        .block(PrintedTable::of_rows(
-            "Largest |far field − J_m²| of the sinusoids, and a rectangle 120 nm deep at 550 nm",
-            [
-                ("m", "1"),
-                ("sinusoid, largest error", "1"),
-                ("rectangle, closed form", "1"),
-                ("rectangle, far field", "1"),
-            ],
-            rows,
-        )))
+    let exhibit = Exhibit::of(TEXTS, "order_powers", &[("parseval", format!("{parseval:.1e}"))]);
+    Ok(exhibit.figure(curves).table(rows).section())
 }

@@ -1,12 +1,11 @@
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
-use super::GREEN_NM;
-use super::grating::level;
+use super::{GREEN_NM, TEXTS, level};
 use crate::document::Section;
-use crate::effect::ClaimError;
+use crate::effect::{ClaimError, Exhibit};
 use crate::effects::diffraction::preparation::{Detrend, Missing, Preparation, USUAL, Window};
-use crate::effects::diffraction::steps::{Step, changes};
+use crate::effects::diffraction::simulation::{Step, changes};
 use crate::effects::diffraction::surfaces::{Grating, Patch, Profile, grating};
 use crate::effects::diffraction::table::NORMAL;
 use crate::measured::height_map::HeightMap;
@@ -80,14 +79,5 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
         Step { name: "padding 4", heights: &plain, preparation: usual, padding: 4 },
     ];
     let table = changes(&steps, GREEN_NM, NORMAL, 257, 1.0)?;
-    Ok(Section::new("What the preparation does")
-        .paragraph(
-            "A sinusoid of amplitude 40 nm and period 2.9 µm, turned by 30°, 48 µm in 192² samples; \
-             table of 257² texels over ±1 at 550 nm. Tilt moves the whole pattern by −w times the \
-             slope; a mean plane fitted to a patch of no whole number of periods is itself a small \
-             tilt. A window widens orders by the same factor everywhere and conserves their power, \
-             so that most of its difference is in peaks, not in light. Unequal distances of samples \
-             cost nothing where they are known.",
-        )
-        .block(table))
+    Ok(Exhibit::of(TEXTS, "preparation", &[]).section().block(table))
 }

@@ -1,14 +1,11 @@
-use super::GREEN_NM;
-use super::grating::{disc, level};
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Cell, Figure, PrintedTable, Section};
-use crate::effect::ClaimError;
+use super::{GREEN_NM, PAPER, TEXTS, disc, level};
+use crate::document::plot::Series;
+use crate::document::{Cell, Section};
+use crate::effect::{ClaimError, Exhibit};
 use crate::effects::diffraction::illuminant::IlluminantChoice;
 use crate::effects::diffraction::preparation::{PreparedHeights, prepared};
-use crate::effects::diffraction::surfaces::{
-    Grating, HolographicPaper, Patch, Profile, grating, holographic_paper,
-};
-use crate::effects::diffraction::table::{Channels, NORMAL, TableShape, of_surface};
+use crate::effects::diffraction::surfaces::{Grating, Patch, Profile, grating, holographic_paper};
+use crate::effects::diffraction::table::{Channels, NORMAL, PowerShares, TableShape, of_surface};
 use crate::measured::spectra::Spectra;
 use crate::table::Grid;
 
@@ -25,73 +22,35 @@ fn section(grid: &Grid, channel: &str) -> Vec<(f64, f64)> {
     shown.map(|(ix, v)| (grid.x().centre(ix), v)).collect()
 }
 
-fn shape(channels: Channels, wavelengths_nm: Vec<f64>) -> TableShape {
-    TableShape { size: [SIZE, SIZE], extent: 1.0, wavelengths_nm, channels }
-}
-
 pub(super) fn exhibit() -> Result<Section, ClaimError> {
     let spectra = Spectra::built_in()?;
     let patch = Patch { samples: 256, side_um: 51.2, line: false };
-    let paper = HolographicPaper {
-        cell_um: 8.0,
-        pitch_um: [1.0, 2.0],
-        amplitude_nm: 60.0,
-        spread: 0.2,
-        seed: 1,
-    };
     let blazed =
         Grating { period_um: 2.0, angle: 0.0, profile: Profile::Blazed { height_nm: 200.0 } };
     let surfaces: [(&str, PreparedHeights); 3] = [
         ("disc", disc()?),
         ("blazed", prepared(&grating(blazed, patch), level())?),
-        ("holographic paper", prepared(&holographic_paper(paper, patch), level())?),
+        ("holographic paper", prepared(&holographic_paper(PAPER, patch), level())?),
     ];
     let wavelengths: Vec<f64> = (0..=20).map(|i| 380.0 + 20.0 * f64::from(i)).collect();
-    let rgb = shape(Channels::Rgb(IlluminantChoice::D65), wavelengths);
+    let green = TableShape::at(GREEN_NM, [SIZE, SIZE], 1.0);
+    let rgb = TableShape {
+        wavelengths_nm: wavelengths,
+        channels: Channels::Rgb(IlluminantChoice::D65),
+        ..green.clone()
+    };
     let coloured = of_surface(&surfaces[0].1, &rgb, 1, NORMAL, &spectra)?;
-    let axes = || (PlotAxis::linear("h along x", "1"), PlotAxis::log("S_d", "sr⁻¹"));
-    let (x, y) = axes();
-    let mut of_disc = Plot::new("Compact disc, h_y = 0", x, y);
-    for channel in ["R", "G", "B"] {
-        of_disc = of_disc.series(Series::line(channel, section(&coloured.grid, channel)));
-    }
-    let (x, y) = axes();
-    let mut of_three = Plot::new("Three surfaces at 550 nm, h_y = 0", x, y);
+    let of_disc = ["R", "G", "B"].map(|name| Series::line(name, section(&coloured.grid, name)));
+    let mut of_three = Vec::new();
     let mut rows = Vec::new();
     for (name, surface) in &surfaces {
-        let green = shape(Channels::Spectral, vec![GREEN_NM]);
         let table = of_surface(surface, &green, 2, NORMAL, &spectra)?;
-        of_three = of_three.series(Series::line(*name, section(&table.grid, "S_550")));
-        let shares = [&table.total, &table.inside, &table.evanescent];
+        of_three.push(Series::line(*name, section(&table.grid, "S_550")));
+        let of_share = |share: &PowerShares| [share.total, share.inside, share.evanescent];
         let mut row = vec![Cell::text(*name)];
-        row.extend(shares.map(|s| Cell::from(s.first().copied().unwrap_or(f64::NAN))));
+        row.extend(table.shares.first().map_or([f64::NAN; 3], of_share).map(Cell::from));
         rows.push(row);
     }
-    Ok(Section::new("Sections of tables")
-        .paragraph(
-            "Tables of simulated surfaces, 51.2 µm in 256² samples under a Hann window, 257² texels \
-             over ±1. The disc's tracks lie along y, so its orders lie along x and its pits spread \
-             them along y; the blazed grating sends most of the light to one side, h = −w slope.",
-        )
-        .block(Figure::new(
-            "diffraction-section-disc",
-            "Channels of linear sRGB under D65; where one is negative, outside the gamut, it is not \
-             drawn.",
-            of_disc,
-        ))
-        .block(Figure::new(
-            "diffraction-section-surfaces",
-            "One wavelength: orders where m λ/d puts them.",
-            of_three,
-        ))
-        .block(PrintedTable::of_rows(
-            "Shares of the reflected power at 550 nm",
-            [
-                ("surface", ""),
-                ("sum over all frequencies", "1"),
-                ("inside the table", "1"),
-                ("beyond |h| = 1", "1"),
-            ],
-            rows,
-        )))
+    let exhibit = Exhibit::of(TEXTS, "sections", &[]).figure(of_disc).figure(of_three);
+    Ok(exhibit.table(rows).section())
 }

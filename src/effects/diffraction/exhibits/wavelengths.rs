@@ -1,8 +1,7 @@
-use super::GREEN_NM;
-use super::grating::line;
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Cell, Figure, PrintedTable, Section};
-use crate::effect::ClaimError;
+use super::{GREEN_NM, TEXTS, line};
+use crate::document::plot::Series;
+use crate::document::{Cell, Section};
+use crate::effect::{ClaimError, Exhibit};
 use crate::effects::diffraction::DiffractionError;
 use crate::effects::diffraction::illuminant::IlluminantChoice;
 use crate::effects::diffraction::surfaces::Profile;
@@ -46,14 +45,9 @@ pub(in crate::effects::diffraction) fn rule_errors(
         channels: Channels::Rgb(IlluminantChoice::D65),
     };
     let exact = of_surface(&surface, &shape, 1, NORMAL, spectra)?.grid;
-    let known = TableShape {
-        size: [4001, 1],
-        extent: KNOWN,
-        wavelengths_nm: vec![GREEN_NM],
-        channels: Channels::Spectral,
-    };
+    let known = TableShape::at(GREEN_NM, [4001, 1], KNOWN);
     let known = of_surface(&surface, &known, 1, NORMAL, spectra)?;
-    let inside = known.inside.first().copied().unwrap_or(f64::NAN);
+    let inside = known.shares.first().map_or(f64::NAN, |share| share.inside);
     let intensity: Vec<f64> =
         known.grid.channels.iter().flat_map(|c| c.values.iter().map(|v| f64::from(*v))).collect();
     let pattern = Pattern { width: 4001, height: 1, intensity, origin: surface.origin.clone() };
@@ -86,48 +80,18 @@ pub(super) fn exhibit() -> Result<Section, ClaimError> {
     let depths: Vec<f64> = (1..=17).map(|i| 10.0 * f64::from(i)).collect();
     let rules: Vec<Rules> =
         depths.iter().map(|d| rule_errors(*d, &spectra)).collect::<Result<_, _>>()?;
-    let mut plot = Plot::new(
-        "Error of tables made from 550 nm",
-        PlotAxis::linear("depth", "nm"),
-        PlotAxis::log("relative L2 error", "1"),
-    );
+    let mut curves = Vec::new();
     for (name, channel) in [("R", 0), ("G", 1), ("B", 2)] {
         let over = |of: fn(&Rules) -> [f64; 3]| {
             depths.iter().zip(&rules).map(move |(depth, rules)| (*depth, of(rules)[channel]))
         };
-        plot = plot
-            .series(Series::line(format!("λ⁻², {name}"), over(|rules| rules.square)))
-            .series(Series::dashed(format!("λ⁻⁴, {name}"), over(|rules| rules.fourth)));
+        curves.push(Series::line(format!("λ⁻², {name}"), over(|rules| rules.square)));
+        curves.push(Series::dashed(format!("λ⁻⁴, {name}"), over(|rules| rules.fourth)));
     }
     let shown = depths.iter().zip(&rules).filter(|(d, _)| [20.0, 60.0, 120.0, 150.0].contains(d));
     let rows = shown.map(|(depth, rules)| {
         let errors = rules.square.into_iter().chain(rules.fourth);
         [*depth].into_iter().chain(errors).map(Cell::from).collect()
     });
-    Ok(Section::new("A table from one wavelength")
-        .paragraph(
-            "A grating of 1.6 µm with a rectangular profile, recorded without error at 550 nm and \
-             taken to other wavelengths by toisoul2017 eq. 2 (λ⁻²) or by the first order of a \
-             shallow relief (λ⁻⁴), against the table made at every wavelength. Relative L2 error of \
-             a section for |h| > 0.12, linear sRGB under D65.",
-        )
-        .block(Figure::new(
-            "diffraction-one-wavelength",
-            "Neither power holds for every depth: λ⁻⁴ is exact for shallow reliefs, and a quarter of \
-             the wavelength, 137 nm, is where λ⁻² is nearest in the green.",
-            plot,
-        ))
-        .block(PrintedTable::of_rows(
-            "Relative L2 error of the orders in R, G and B",
-            [
-                ("depth", "nm"),
-                ("λ⁻², R", "1"),
-                ("λ⁻², G", "1"),
-                ("λ⁻², B", "1"),
-                ("λ⁻⁴, R", "1"),
-                ("λ⁻⁴, G", "1"),
-                ("λ⁻⁴, B", "1"),
-            ],
-            rows,
-        )))
+    Ok(Exhibit::of(TEXTS, "wavelengths", &[]).figure(curves).table(rows).section())
 }

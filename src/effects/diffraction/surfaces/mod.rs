@@ -7,15 +7,13 @@
 
 mod disc;
 mod gratings;
-mod paper;
 mod pixels;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha12Rng;
 
 pub use disc::{CompactDisc, compact_disc};
-pub use gratings::{Grating, Profile, grating};
-pub use paper::{HolographicPaper, holographic_paper};
+pub use gratings::{Grating, HolographicPaper, Profile, grating, holographic_paper};
 pub use pixels::{PixelLattice, pixel_lattice};
 
 use crate::measured::height_map::HeightMap;

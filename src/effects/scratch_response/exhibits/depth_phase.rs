@@ -1,10 +1,11 @@
-//! The depth phase: at small angles (eq. 4), in the mirror direction, and at the angles themselves.
+//! The depth phase: at small angles (eq. 4, fig. 3), in the mirror direction, and at the angles themselves.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::{grid, log_grid};
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Figure, PrintedTable, Section};
+use super::{TEXTS, grid, log_grid};
+use crate::document::plot::Series;
+use crate::document::{Cell, Section};
+use crate::effect::Exhibit;
 use crate::effects::scratch_response::amplitude::{depth_factor, sinc_pi};
 use crate::numeric::statistics::relative_l2;
 
@@ -72,75 +73,39 @@ impl Sampling {
 
 /// Error against exitance, incidence, wavelength, W and D.
 pub(super) fn exhibit() -> Section {
-    let figure = |stem, title, x, points: &dyn Fn(DepthPhase) -> Vec<(f64, f64)>| {
+    let curves = |points: &dyn Fn(DepthPhase) -> Vec<(f64, f64)>| {
         let small = Series::line("small angles (eq. 4)", points(DepthPhase::SmallAngle)).strong();
-        let mirror = Series::line("mirror direction (ours)", points(DepthPhase::Mirror));
-        let y = PlotAxis::linear("relative RMS error", "1");
-        let plot = Plot::new(format!("Depth phase: error against {title}"), x, y);
-        Figure::new(
-            stem,
-            "W and D from 0.8 to 6 um (velinov2018 section 5), exitances to 85 degrees in the plane across the \
-             scratch, unless on the axis; vertical light of 550 nm. RMS error over RMS of the reference.",
-            plot.series(small).series(mirror),
-        )
+        [small, Series::line("mirror direction (ours)", points(DepthPhase::Mirror))]
     };
     let over = |values: Vec<f64>, sampling: fn(f64) -> Sampling| {
         move |phase| values.iter().map(|&v| (v, sampling(v).error(phase))).collect::<Vec<_>>()
     };
     let sizes: Vec<f64> = log_grid(0.3, 20.0, 25).collect();
-    Section::new("Depth phase: small angles, mirror direction")
-        .paragraph(
-            "The phase differs by 2 pi (2 - g - g_i) D/lambda, which in the main lobe of a scratch under vertical \
-             light is about pi lambda D/W^2: small for wide and shallow scratches. Away from vertical light \
-             it is wrong in the mirror direction itself, by 4 pi (1 - cos theta) D/lambda: a few \
-             wavelengths of depth scramble the colours.",
-        )
-        .paragraph(
-            "Taken in the mirror direction of the viewer, 2g in place of g + g_i, the phase is right there at every \
-             angle and still does not move with the light, so that the integrals over lights stay closed. A lobe \
-             away it is off by 2 pi D tan(theta)/W: it helps wide and shallow scratches. For a point light \
-             g + g_i is known, and the form `infinite` has it at no cost.",
-        )
-        .block(figure(
-            "scratch-depth-exitance",
-            "exitance",
-            PlotAxis::linear("exitance", "degrees"),
-            &|phase| {
-                let error = |angle: f64| PAPER.error_at(angle.to_radians(), phase);
-                grid(0.0, 85.0, 86).map(|angle| (angle, error(angle))).collect()
-            },
-        ))
-        .block(figure(
-            "scratch-depth-incidence",
-            "incidence",
-            PlotAxis::linear("incidence", "degrees"),
-            &over(grid(0.0, 80.0, 17).collect(), |degrees| Sampling {
-                incidence_rad: degrees * PI / 180.0,
-                ..PAPER
-            }),
-        ))
-        .block(figure(
-            "scratch-depth-wavelength",
-            "wavelength",
-            PlotAxis::linear("wavelength", "um"),
-            &over(grid(0.38, 0.78, 21).collect(), |um| Sampling { wavelength_um: um, ..PAPER }),
-        ))
-        .block(figure(
-            "scratch-depth-width",
-            "width",
-            PlotAxis::log("W", "um"),
-            &over(sizes.clone(), |width| Sampling { width_um: [width; 2], ..PAPER }),
-        ))
-        .block(figure(
-            "scratch-depth-depth",
-            "depth",
-            PlotAxis::log("D", "um"),
-            &over(sizes, |depth| Sampling { depth_um: [0.9 * depth, 1.1 * depth], ..PAPER }),
-        ))
-        .block(incidence_table())
+    let against_exitance = |phase| {
+        let error = |angle: f64| PAPER.error_at(angle.to_radians(), phase);
+        grid(0.0, 85.0, 86).map(|angle| (angle, error(angle))).collect()
+    };
+    let against_incidence = over(grid(0.0, 80.0, 17).collect(), |degrees| Sampling {
+        incidence_rad: degrees * PI / 180.0,
+        ..PAPER
+    });
+    let against_wavelength =
+        over(grid(0.38, 0.78, 21).collect(), |um| Sampling { wavelength_um: um, ..PAPER });
+    let against_width = over(sizes.clone(), |width| Sampling { width_um: [width; 2], ..PAPER });
+    let against_depth =
+        over(sizes, |depth| Sampling { depth_um: [0.9 * depth, 1.1 * depth], ..PAPER });
+    Exhibit::of(TEXTS, "depth_phase", &[])
+        .figure(curves(&against_exitance))
+        .figure(curves(&against_incidence))
+        .figure(curves(&against_wavelength))
+        .figure(curves(&against_width))
+        .figure(curves(&against_depth))
+        .table(by_incidence())
+        .section()
 }
 
-fn incidence_table() -> PrintedTable {
+/// Errors of scratches by incidence.
+fn by_incidence() -> Vec<Vec<Cell>> {
     let bands = [
         ("W, D 0.8 to 6 um", [0.8, 6.0], [0.8, 6.0]),
         ("W 20, D 0.3 um", [20.0; 2], [0.3; 2]),
@@ -155,14 +120,55 @@ fn incidence_table() -> PrintedTable {
             vec![name.into(), degrees.into(), errors[0].into(), errors[1].into()]
         })
     });
-    PrintedTable::of_rows(
-        "Relative RMS error over exitances, 550 nm",
-        [
-            ("scratch", ""),
-            ("incidence", "degrees"),
-            ("small angles", "1"),
-            ("mirror direction", "1"),
-        ],
-        rows,
-    )
+    rows.collect()
+}
+
+/// Wavelength of fig. 3, µm.
+const WAVELENGTH_UM: f64 = 0.7;
+/// Width and depth of the reproduction, µm: the caption states neither.
+const WIDTH_UM: f64 = 2.0;
+const DEPTH_UM: f64 = 1.0;
+
+/// (W/λ)² sinc² |𝒟|² under a vertical light at exitance `angle`, the depth phase at γ + γᵢ = `mu_sum`.
+fn lobe_at(width_um: f64, depth_um: f64, angle: f64, mu_sum: f64) -> f64 {
+    let spectral = width_um / WAVELENGTH_UM * sinc_pi(width_um * angle.sin() / WAVELENGTH_UM);
+    spectral * spectral * depth_factor(depth_um, WAVELENGTH_UM, mu_sum).norm_sqr()
+}
+
+/// Energy of the side lobes (beyond the first zero) at small angles and at the angles, over exitances
+/// above the surface.
+pub(in super::super) fn side_lobe_energy(width_um: f64, depth_um: f64) -> (f64, f64) {
+    let first = WAVELENGTH_UM / width_um;
+    let nodes = 400;
+    let step = (1.0 - first) / f64::from(nodes);
+    (0..nodes).map(|i| first + (f64::from(i) + 0.5) * step).fold((0.0, 0.0), |sums, sine: f64| {
+        let angle = sine.asin();
+        (
+            sums.0 + step * lobe_at(width_um, depth_um, angle, 2.0),
+            sums.1 + step * lobe_at(width_um, depth_um, angle, 1.0 + angle.cos()),
+        )
+    })
+}
+
+/// The figure, and side-lobe energies over depths.
+pub(super) fn figure_three() -> Section {
+    let angles: Vec<f64> = grid(-0.999 * FRAC_PI_2, 0.999 * FRAC_PI_2, 901).collect();
+    let peak = lobe_at(WIDTH_UM, DEPTH_UM, 0.0, 2.0);
+    let curve = |mu_sum: fn(f64) -> f64| -> Vec<(f64, f64)> {
+        let value = |angle: f64| lobe_at(WIDTH_UM, DEPTH_UM, angle, mu_sum(angle)) / peak;
+        angles.iter().map(|&angle| (angle.to_degrees(), value(angle).max(1e-5))).collect()
+    };
+    let curves = [
+        Series::line("small angles, exp(i 4 pi D/lambda)", curve(|_| 2.0)).strong(),
+        Series::dashed(
+            "at its angles, exp(i 2 pi (g + g_i) D/lambda)",
+            curve(|angle| 1.0 + angle.cos()),
+        ),
+    ];
+    let rows = [0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3, 2.0, 3.0, 6.0].map(|depth| {
+        let (small, angular) = side_lobe_energy(WIDTH_UM, depth);
+        [depth, small, angular, small / angular].map(Cell::from).to_vec()
+    });
+    let values = [("WIDTH_UM", WIDTH_UM.to_string()), ("DEPTH_UM", DEPTH_UM.to_string())];
+    Exhibit::of(TEXTS, "figure_three", &values).figure(curves).table(rows).section()
 }

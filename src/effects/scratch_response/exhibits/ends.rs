@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
-use super::{grid, log_grid};
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Figure, PrintedTable, Section};
-use crate::effect::{Candidates, ClaimError, points};
+use super::{TEXTS, grid, log_grid};
+use crate::document::Section;
+use crate::document::plot::Series;
+use crate::effect::{Candidates, ClaimError, Exhibit, points};
 use crate::effects::scratch_response::amplitude::along_factor;
 use crate::effects::scratch_response::regions::COLUMNS;
 use crate::numeric::statistics::relative_l2;
@@ -60,20 +60,15 @@ fn matched_ends(
 /// Errors against length over σ, for a scratch centred on the shaded point and one that begins there.
 pub(super) fn exhibit(candidates: &Candidates) -> Result<Section, ClaimError> {
     let lengths: Vec<f64> = log_grid(0.2, 12.0, 41).collect();
-    let mut plot = Plot::new(
-        "Ends: error against length",
-        PlotAxis::log("length over sigma", "1"),
-        PlotAxis::log("relative RMS error", "1"),
-    );
+    let mut curves = Vec::new();
     for (name, begin) in [("centred", -0.5), ("begins at the point", 0.0)] {
         let errors = lengths
             .iter()
             .map(|l| response_errors(candidates, begin * l, (begin + 1.0) * l))
             .collect::<Result<Vec<_>, _>>()?;
         let over = |i: usize| lengths.iter().zip(&errors).map(move |(l, e)| (*l, e[i]));
-        plot = plot
-            .series(Series::line(format!("infinite, {name}"), over(0)).strong())
-            .series(Series::line(format!("matched, {name}"), over(1)));
+        curves.push(Series::line(format!("infinite, {name}"), over(0)).strong());
+        curves.push(Series::line(format!("matched, {name}"), over(1)));
     }
     let cases = [
         ("centred, 10 sigma", -5.0, 5.0),
@@ -92,28 +87,5 @@ pub(super) fn exhibit(candidates: &Candidates) -> Result<Section, ClaimError> {
         Ok(vec![name.into(), infinite.into(), energy.into(), matched.into()])
     };
     let rows = cases.into_iter().map(row).collect::<Result<Vec<_>, ClaimError>>()?;
-    Ok(Section::new("Ends: infinite scratch, matched Gaussian")
-        .paragraph(
-            "Without ends (eq. 8) a scratch keeps the peak and the width along xi_1 of one that spans the coherence \
-             area. The matched Gaussian has the exact peak and the exact energy of the finite scratch, by \
-             four real error functions, and stays separable: integrated over a light wider than its narrow \
-             side it is exact, and its error is the shape along xi_1 alone.",
-        )
-        .block(Figure::new(
-            "scratch-ends",
-            "RMS error over xi_1 over RMS of eq. 5; a scratch centred on the shaded point, and one that \
-             begins there.",
-            plot,
-        ))
-        .block(PrintedTable::of_rows(
-            "By the place of the ends. Energy: of the infinite scratch over that of the finite one; \
-             that of the matched Gaussian is exact.",
-            [
-                ("scratch", ""),
-                ("infinite, error", "1"),
-                ("infinite, energy ratio", "1"),
-                ("matched, error", "1"),
-            ],
-            rows,
-        )))
+    Ok(Exhibit::of(TEXTS, "ends", &[]).figure(curves).table(rows).section())
 }

@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 
-use super::grid;
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Cell, Figure, PrintedTable, Section};
+use super::{TEXTS, grid};
+use crate::document::plot::Series;
+use crate::document::{Cell, Section};
+use crate::effect::Exhibit;
 use crate::effects::scratch_response::ensemble::{
     Base, Depth, Ends, Lit, Model, Recipe, Sum, all_models, mirror_width, scratches,
     under_normal_light,
@@ -60,9 +61,14 @@ impl EnergyStudy {
 
     /// Energy of a model over the disc.
     pub(in super::super) fn of(&self, model: Model) -> f64 {
-        let at = all_models().iter().position(|&other| other == model);
-        at.map_or(f64::NAN, |i| self.disc[i])
+        of_model(&self.disc, model)
     }
+}
+
+/// The energy of a model among those of all.
+fn of_model(energies: &[f64; MODELS], model: Model) -> f64 {
+    let at = all_models().iter().position(|&other| other == model);
+    at.map_or(f64::NAN, |i| energies[i])
 }
 
 /// Points of the disc in steps of 1/(σk), their directions under a vertical light, and the area of each.
@@ -93,9 +99,6 @@ fn of_surface(recipe: Recipe, seed: u64) -> EnergyStudy {
         .collect::<Vec<_>>();
     // In the order of the chunks, whatever the number of threads.
     let disc: [f64; MODELS] = std::array::from_fn(|i| sums.iter().map(|part| part[i]).sum());
-    let at = |wanted: Model| {
-        models.iter().position(|&model| model == wanted).map_or(f64::NAN, |i| disc[i])
-    };
     let plane = models.map(|model| {
         if model.depth == Depth::Angular {
             return f64::NAN;
@@ -106,7 +109,8 @@ fn of_surface(recipe: Recipe, seed: u64) -> EnergyStudy {
         let mutual = match model.sum {
             Sum::Coherent => {
                 let added = Model { base: Base::Added, ..model };
-                at(added) - at(Model { sum: Sum::Incoherent, ..added })
+                let apart = Model { sum: Sum::Incoherent, ..added };
+                of_model(&disc, added) - of_model(&disc, apart)
             }
             Sum::Incoherent => 0.0,
         };
@@ -129,9 +133,9 @@ pub(super) fn exhibit() -> Section {
         .iter()
         .zip(&studies)
         .map(|(n, study)| [*n, study.light_share, study.density].map(Cell::from).to_vec());
-    let mut columns = ["depth phase", "ends", "sum", "mirror"].map(|t| (t.to_owned(), "")).to_vec();
-    columns.extend(DENSITIES.iter().map(|n| (format!("disc, {n} per area"), "1")));
-    columns.extend(DENSITIES.iter().map(|n| (format!("plane, {n} per area"), "1")));
+    let columns = ["disc", "plane"]
+        .into_iter()
+        .flat_map(|place| DENSITIES.map(|n| (format!("{place}, {n} per area"), "1".to_owned())));
     let energy =
         |value: f64| if value.is_finite() { value.into() } else { Cell::text("not defined") };
     let rows = all_models().into_iter().enumerate().map(|(i, model)| {
@@ -140,33 +144,16 @@ pub(super) fn exhibit() -> Section {
         row.extend(studies.iter().map(|study| energy(study.plane[i])));
         row
     });
-    Section::new("Energy of a scratched mirror")
-        .paragraph(format!(
-            "The mirror alone reflects {mirror:.9} over the disc of visible directions. Vertical light of 550 nm, \
-             sigma = 10 um, W and D uniform from 0.3 to 2 um, lengths from sigma to 20 sigma, any \
-             orientation; means over {ENSEMBLES} surfaces."
-        ))
-        .paragraph(
-            "A surface of phase alone reflects 1 over the whole plane. The full sum stays there up to crossings, \
-             where overlapping scratches add their complex amplitudes and not their depths. Without cross term \
-             and blend the scratches come on top of the mirror; rho_c takes back twice the share of the light \
-             that falls into them on average, whatever their depth; |D|^2 a takes back what they show.",
-        )
-        .block(one_scratch())
-        .block(PrintedTable::of_rows(
-            "Share of the light that falls into scratches (a), and rho_c of eq. 17",
-            [("scratches per area", "1"), ("a", "1"), ("rho_c", "1")],
-            shares,
-        ))
-        .block(PrintedTable::of_rows(
-            "Reflected energy by combination: over the visible disc, and over the whole plane",
-            columns,
-            rows,
-        ))
+    let values = [("mirror", format!("{mirror:.9}")), ("ENSEMBLES", ENSEMBLES.to_string())];
+    Exhibit::of(TEXTS, "energy", &values)
+        .figure(one_scratch())
+        .table(shares)
+        .wider_table(columns, rows)
+        .section()
 }
 
 /// Energy over the plane of a mirror with one infinite scratch, against the wavelength, in closed form.
-fn one_scratch() -> Figure {
+fn one_scratch() -> [Series; 3] {
     let scratch = StraightScratch::infinite(0.0, 3.0, 0.4);
     let curve = |taken: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
         grid(0.38, 0.78, 81)
@@ -177,20 +164,11 @@ fn one_scratch() -> Figure {
             })
             .collect()
     };
-    let plot = Plot::new(
-        "Energy of a mirror with one scratch",
-        PlotAxis::linear("wavelength", "um"),
-        PlotAxis::linear("reflected energy", "1"),
-    )
-    .series(Series::line("no blend", curve(&|_| 0.0)))
-    .series(Series::line("rho_c (eq. 6, 17)", curve(&|_| scratch.density(60.0))).strong())
-    .series(Series::dashed("energy blend (ours)", curve(&|lobe| lobe)));
-    Figure::new(
-        "scratch-energy-wavelength",
-        "An infinite scratch through the shaded point, W = 3 um, D = 0.4 um, sigma = 60 um, over the whole \
-         plane of direction cosines at a fixed depth phase. The full sum and the energy blend are 1.",
-        plot,
-    )
+    [
+        Series::line("no blend", curve(&|_| 0.0)),
+        Series::line("rho_c (eq. 6, 17)", curve(&|_| scratch.density(60.0))).strong(),
+        Series::dashed("energy blend (ours)", curve(&|lobe| lobe)),
+    ]
 }
 
 fn words(model: Model) -> [&'static str; 4] {

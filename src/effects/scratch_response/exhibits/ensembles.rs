@@ -4,8 +4,10 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
 
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Cell, Figure, PrintedTable, Section};
+use super::TEXTS;
+use crate::document::plot::Series;
+use crate::document::{Cell, Section};
+use crate::effect::Exhibit;
 use crate::effects::scratch_response::ensemble::{
     Base, Depth, Ends, Lit, Model, PUBLISHED, REFERENCE, Recipe, Sum, mirror_width, scratches,
     under_normal_light,
@@ -51,7 +53,7 @@ pub(in super::super) struct EnsembleStudy {
 
 /// Where an ensemble is seen.
 #[derive(Debug, Clone, Copy)]
-enum Seen {
+pub(in super::super) enum Seen {
     /// In the lobe of one of its scratches, beyond the mirror's.
     Scratch,
     /// In the mirror's lobe.
@@ -59,17 +61,8 @@ enum Seen {
 }
 
 impl EnsembleStudy {
-    /// In the lobes of scratches.
-    pub(in super::super) fn of_scratches(per_coherence_area: f64, spread_rad: f64) -> Self {
-        Self::seen(per_coherence_area, spread_rad, Seen::Scratch)
-    }
-
-    /// In the lobe of the mirror.
-    pub(in super::super) fn of_mirror(per_coherence_area: f64) -> Self {
-        Self::seen(per_coherence_area, std::f64::consts::PI, Seen::Mirror)
-    }
-
-    fn seen(per_coherence_area: f64, spread_rad: f64, seen: Seen) -> Self {
+    /// Of scratches within `spread_rad` of each other.
+    pub(in super::super) fn new(per_coherence_area: f64, spread_rad: f64, seen: Seen) -> Self {
         let recipe = Recipe {
             sigma_um: LIGHT.sigma_um,
             per_coherence_area,
@@ -121,57 +114,41 @@ fn direction(rng: &mut ChaCha12Rng, scratches: &[StraightScratch], seen: Seen) -
 pub(super) fn exhibit() -> Section {
     let any = std::f64::consts::PI;
     let brushed = 2.0_f64.to_radians();
-    let scratch = DENSITIES.map(|n| EnsembleStudy::of_scratches(n, any));
-    let parallel = DENSITIES.map(|n| EnsembleStudy::of_scratches(n, brushed));
-    let mirror = DENSITIES.map(EnsembleStudy::of_mirror);
+    let scratch = DENSITIES.map(|n| EnsembleStudy::new(n, any, Seen::Scratch));
+    let parallel = DENSITIES.map(|n| EnsembleStudy::new(n, brushed, Seen::Scratch));
+    let mirror = DENSITIES.map(|n| EnsembleStudy::new(n, any, Seen::Mirror));
     let in_mirror = [2, 3, 4, 5, 6, 8, 9, 10];
-    Section::new("Ensembles: each simplification on its own, and all together")
-        .paragraph(format!(
-            "Seeded ensembles of {ENSEMBLES} surfaces with {DIRECTIONS} directions each, vertical light of 550 nm, \
-             sigma = 60 um, W and D uniform from 0.8 to 6 um, lengths log-uniform from sigma to 20 sigma, \
-             any orientation or within one degree. A scratch counts if its line passes within sigma of the \
-             shaded point. Errors at a point contain speckle, which a pixel averages; the ratio of means \
-             says what is left after averaging."
-        ))
-        .block(figure(
-            "scratch-ensemble-lobes",
-            "In the lobes of scratches",
-            &scratch,
-            &[1, 2, 3, 6, 8],
-        ))
-        .block(figure("scratch-ensemble-mirror", "In the mirror's lobe", &mirror, &in_mirror))
-        .block(table(
-            "In the lobes of scratches of any orientation, beyond the mirror's",
-            &scratch,
-        ))
-        .block(table("In the lobes of scratches within one degree of each other", &parallel))
-        .block(table("In the mirror's lobe", &mirror))
+    let values = [("ENSEMBLES", ENSEMBLES.to_string()), ("DIRECTIONS", DIRECTIONS.to_string())];
+    Exhibit::of(TEXTS, "ensembles", &values)
+        .figure(curves(&scratch, &[1, 2, 3, 6, 8]))
+        .figure(curves(&mirror, &in_mirror))
+        .wider_table(columns(), rows(&scratch))
+        .wider_table(columns(), rows(&parallel))
+        .wider_table(columns(), rows(&mirror))
+        .section()
 }
 
-fn figure(stem: &str, title: &str, studies: &[EnsembleStudy], models: &[usize]) -> Figure {
-    let mut plot = Plot::new(
-        format!("{title}: error against scratches per coherence area"),
-        PlotAxis::log("scratches within sigma", "1"),
-        PlotAxis::log("relative RMS error", "1"),
-    );
-    for &i in models {
+/// Errors of some models over the densities.
+fn curves(studies: &[EnsembleStudy], models: &[usize]) -> Vec<Series> {
+    let curve = |&i: &usize| {
         let points = DENSITIES.iter().zip(studies).map(|(n, study)| (*n, study.rms[i]));
         let series = Series::line(MODELS[i].0, points);
-        plot = plot.series(if i == 6 { series.strong() } else { series });
-    }
-    let caption = "RMS error over RMS of the reference (full, coherent, finite, cross term).";
-    Figure::new(stem, caption, plot)
+        if i == 6 { series.strong() } else { series }
+    };
+    models.iter().map(curve).collect()
 }
 
-fn table(caption: &str, studies: &[EnsembleStudy]) -> PrintedTable {
-    let mut columns = vec![("model".to_owned(), "")];
-    columns.extend(DENSITIES.iter().map(|n| (format!("RMS, {n} per area"), "1")));
-    columns.extend(DENSITIES.iter().map(|n| (format!("mean, {n} per area"), "1")));
-    let rows = (1..MODELS.len()).map(|i| {
+/// The densities, of the errors and of the means.
+fn columns() -> impl Iterator<Item = (String, String)> {
+    let of = |number| DENSITIES.map(|n| (format!("{number}, {n} per area"), "1".to_owned()));
+    ["RMS", "mean"].into_iter().flat_map(of)
+}
+
+/// Errors of every model, and means over that of the reference.
+fn rows(studies: &[EnsembleStudy]) -> impl Iterator<Item = Vec<Cell>> {
+    (1..MODELS.len()).map(|i| {
         let rms = studies.iter().map(|study| study.rms[i]);
         let numbers = rms.chain(studies.iter().map(|study| study.mean[i])).map(Cell::from);
         [Cell::text(MODELS[i].0)].into_iter().chain(numbers).collect()
-    });
-    let caption = format!("{caption}: relative RMS error, and mean over the mean of the reference");
-    PrintedTable::of_rows(caption, columns, rows)
+    })
 }

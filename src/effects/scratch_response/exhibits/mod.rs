@@ -3,22 +3,23 @@
 mod energy;
 mod ensembles;
 mod ends;
-mod figure_three;
 mod depth_phase;
 
-pub(super) use depth_phase::{DepthPhase, Sampling};
+pub(super) use depth_phase::{DepthPhase, Sampling, side_lobe_energy};
 pub(super) use ends::{energy_ratio, response_errors};
 pub(super) use energy::EnergyStudy;
-pub(super) use ensembles::EnsembleStudy;
-pub(super) use figure_three::side_lobe_energy;
+pub(super) use ensembles::{EnsembleStudy, Seen};
 
 use crate::document::Section;
 use crate::effect::{Candidates, ClaimError};
 
+/// What is said of the exhibits.
+const TEXTS: &str = include_str!("../exhibits.toml");
+
 /// The exhibits, in the order of the page.
 pub(super) fn exhibits(candidates: &Candidates) -> Result<Vec<Section>, ClaimError> {
     Ok(vec![
-        figure_three::exhibit(),
+        depth_phase::figure_three(),
         depth_phase::exhibit(),
         ends::exhibit(candidates)?,
         ensembles::exhibit(),

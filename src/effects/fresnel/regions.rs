@@ -1,16 +1,14 @@
-//! Points that break careless implementations.
+//! Where the forms are judged, and points that break careless implementations.
 
-use crate::effect::{Region, points};
-use crate::table::Table;
+use crate::effect::{Points, points};
+use crate::table::{Column, Table};
 
-/// The hard cases, as registered.
-pub(super) const HARD_CASES: Region = Region {
-    name: "hard cases",
-    description: "interfaces whose curves are hardest, at grazing and normal incidence and about \
-                  their Brewster angles",
-    points: table,
-    ..Region::EMPTY
-};
+/// Forms that take F₀ are judged on the held-out points of their family; only the weight, which
+/// takes mu alone, has a region.
+pub(super) const REGIONS: &[(&str, Points, Option<Points>)] = &[("[0, 1]", all_angles, None)];
+
+/// Hard cases, by name.
+pub(super) const HARD_CASES: &[(&str, Points)] = &[("hard cases", hard_cases)];
 
 /// Interfaces whose curves are hardest: index n and k.
 const INTERFACES: [(f64, f64); 9] = [
@@ -30,10 +28,18 @@ const INTERFACES: [(f64, f64); 9] = [
     (1.0, 1e-6),
 ];
 
+fn all_angles() -> Table {
+    let even = (0..1000).map(|i| (f64::from(i) + 0.5) / 1000.0);
+    let grazing = (0..=12).map(|i| 10f64.powf(-4.0 + f64::from(i) / 4.0));
+    let mu = even.chain(grazing).chain([0.0, 1.0]).collect();
+    let columns = vec![Column::new("mu", "1", mu)];
+    Table { columns, origin: "region [0, 1] of fresnel".into() }
+}
+
 /// Every interface at grazing and normal incidence, in between, and about its (pseudo-)Brewster
 /// angle. Columns `mu`, `n`, `k`, and `eta`, which is n: the absorbing ones enter as dielectrics
 /// too.
-fn table() -> Table {
+fn hard_cases() -> Table {
     let mut rows: Vec<[f64; 4]> = Vec::new();
     for (n, k) in INTERFACES {
         // Where Re(mu^2 (m^2 + 1)) = 1 for k = 0; near the minimum of R_p otherwise.
