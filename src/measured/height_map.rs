@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::import::extension;
-use super::samples::{Samples, require_two};
+use super::error::require;
+use super::import::{extension, unknown_format};
+use super::samples::{Samples, size_fault};
 use super::{MeasuredError, height_map_raw};
 use crate::table::{Axis, Grid, GridChannel, units};
 
@@ -48,7 +49,7 @@ impl HeightMap {
         match extension(path).as_str() {
             "f32" => height_map_raw::read(path),
             "exr" => Self::from_grid(&Grid::read_exr(path)?),
-            _ => Err(MeasuredError::unknown_format(
+            _ => Err(unknown_format(
                 path,
                 "raw height map (.f32 with .json); grid (.exr with .exr.axes.toml)",
             )),
@@ -149,15 +150,14 @@ impl HeightMap {
     /// The first rule that is broken.
     pub fn check(&self) -> Result<(), MeasuredError> {
         let (origin, width, height) = (self.origin.as_str(), self.nx, self.ny);
-        let implausible = |reason: String| MeasuredError::implausible(origin, reason);
         let size = [width, height];
-        require_two(origin, size, "samples", "at least 2 along x and along y")?;
+        if width.min(height) < 2 {
+            return Err(size_fault(origin, size, "samples", "at least 2 along x and along y"));
+        }
         for (name, spacing) in [("dx_um", self.dx_um), ("dy_um", self.dy_um)] {
-            if !(spacing.is_finite() && spacing > 0.0) {
-                return Err(implausible(format!(
-                    "{name} is {spacing} µm, expected a positive finite distance"
-                )));
-            }
+            require(spacing.is_finite() && spacing > 0.0, origin, || {
+                format!("{name} is {spacing} µm, expected a positive finite distance")
+            })?;
         }
         let samples = Samples::filling(origin, size, &self.height_nm)?;
         samples.refuse("heights are infinite", "nm, or NaN where there is no data", |nm| {
@@ -165,16 +165,16 @@ impl HeightMap {
         })?;
         let Some([low, high]) = self.range_nm() else {
             let total = self.height_nm.len();
-            return Err(implausible(format!("none of {total} samples has data: all are NaN")));
+            let reason = format!("none of {total} samples has data: all are NaN");
+            return Err(MeasuredError::unusable(origin, reason));
         };
         let [x, y] = self.size_um();
         let range = high - low;
-        if range > 1e3 * x.max(y) {
-            return Err(implausible(format!(
+        require(range <= 1e3 * x.max(y), origin, || {
+            format!(
                 "heights range over {range} nm, more than the lateral size of {x} × {y} µm; \
                  expected heights in nm and distances in µm"
-            )));
-        }
-        Ok(())
+            )
+        })
     }
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
+use super::error::require;
 use super::{HeightMap, MeasuredError};
 use crate::table::store;
 
@@ -45,28 +46,18 @@ fn parse(origin: &str, text: &str) -> Result<Sidecar, MeasuredError> {
         line: e.line().max(1) as u64,
         reason: e.to_string(),
     })?;
-    let implausible = |reason: String| MeasuredError::implausible(origin, reason);
     if let Some(dtype) = &sidecar.dtype {
-        if !dtype.starts_with(NUMBERS) {
-            return Err(implausible(format!("dtype: expected {NUMBERS:?}, got {dtype:?}")));
-        }
-        if let Some((_, rest)) = dtype.split_once(HEIGHT_IN) {
-            let unit = rest.split([',', ';', ' ']).next().unwrap_or_default();
-            require_nm(origin, "dtype", unit)?;
-        }
+        require(dtype.starts_with(NUMBERS), origin, || {
+            format!("dtype: expected {NUMBERS:?}, got {dtype:?}")
+        })?;
     }
-    if let Some(unit) = &sidecar.height_unit {
-        require_nm(origin, "height_unit", unit)?;
+    let in_dtype = sidecar.dtype.as_deref().and_then(|dtype| dtype.split_once(HEIGHT_IN));
+    let in_dtype = in_dtype.and_then(|(_, rest)| rest.split([',', ';', ' ']).next());
+    for (key, unit) in [("dtype", in_dtype), ("height_unit", sidecar.height_unit.as_deref())] {
+        let unit = unit.unwrap_or("nm");
+        require(unit == "nm", origin, || format!("{key}: expected heights in nm, got {unit:?}"))?;
     }
     Ok(sidecar)
-}
-
-fn require_nm(origin: &str, key: &str, unit: &str) -> Result<(), MeasuredError> {
-    if unit == "nm" {
-        return Ok(());
-    }
-    let reason = format!("{key}: expected heights in nm, got {unit:?}");
-    Err(MeasuredError::implausible(origin, reason))
 }
 
 fn heights(
@@ -77,17 +68,11 @@ fn heights(
 ) -> Result<HeightMap, MeasuredError> {
     let (nx, ny) = (sidecar.nx, sidecar.ny);
     let expected = (nx as u64).saturating_mul(ny as u64).saturating_mul(4);
-    if bytes.len() as u64 != expected {
-        return Err(MeasuredError::Length {
-            origin: origin.into(),
-            what: "bytes",
-            got: bytes.len() as u64,
-            expected,
-            width: nx,
-            height: ny,
-            hint: format!(" samples of 4 bytes, as {sidecar_origin} says"),
-        });
-    }
+    let got = bytes.len() as u64;
+    require(got == expected, origin, || {
+        let of = format!("{nx} × {ny} samples of 4 bytes, as {sidecar_origin} says");
+        format!("{got} bytes, expected {expected} for {of}")
+    })?;
     let (samples, _) = bytes.as_chunks();
     let map = HeightMap {
         nx,
@@ -98,15 +83,12 @@ fn heights(
         origin: origin.into(),
     };
     map.check()?;
-    match map.range_nm() {
-        Some([low, high]) if high > low && high - low < LEAST_RANGE_NM => {
-            let range = high - low;
-            let reason = format!(
-                "heights range over {range:e} nm, less than {LEAST_RANGE_NM} nm; expected heights \
-                 in nm, not in m or µm"
-            );
-            Err(MeasuredError::implausible(origin, reason))
-        }
-        _ => Ok(map),
-    }
+    let range = map.range_nm().map_or(0.0, |[low, high]| high - low);
+    require(range == 0.0 || range >= LEAST_RANGE_NM, origin, || {
+        format!(
+            "heights range over {range:e} nm, less than {LEAST_RANGE_NM} nm; expected heights in nm, \
+             not in m or µm"
+        )
+    })?;
+    Ok(map)
 }

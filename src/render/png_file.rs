@@ -1,46 +1,35 @@
 //! Images as PNG: sRGB, 8 or 16 bits.
 
-use std::io::Cursor;
-
-use ::image::{ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, Limits};
+use ::image::{ExtendedColorType, ImageEncoder};
 
 use super::image::{Channel, Clipped, Image, ImageError};
-use super::srgb;
-use crate::table::MAX_PIXEL_BYTES;
+use crate::measured::{decoded_png, srgb};
 
 /// How a pixel that is not finite is shown.
 const NON_FINITE: [u8; 3] = [255, 0, 255];
 
 /// Reads an image; `origin` names it in messages.
 pub(super) fn decode(origin: &str, bytes: &[u8]) -> Result<Image, ImageError> {
-    let fault = |e: &dyn std::error::Error| ImageError::Png {
-        origin: origin.into(),
-        reason: e.to_string(),
-    };
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(MAX_PIXEL_BYTES);
-    reader.limits(limits);
-    let picture = reader.decode().map_err(|e| fault(&e))?;
+    let picture = decoded_png(bytes).map_err(|e| fault(origin, &e.to_string()))?;
     let has_alpha = picture.color().has_alpha();
-    // Sixteen bits hold eight exactly: 257 · v / 65535 = v / 255.
     let picture = picture.into_rgba16();
     let (width, height) = picture.dimensions();
     let values = |at: usize, decoded: fn(f64) -> f64| -> Vec<f32> {
         let codes = picture.as_raw().chunks_exact(4).filter_map(|pixel| pixel.get(at));
         codes.map(|code| decoded(f64::from(*code) / 65535.0) as f32).collect()
     };
-    let mut channels: Vec<Channel> = ["R", "G", "B"]
-        .into_iter()
-        .enumerate()
-        .map(|(at, name)| Channel { name: name.into(), values: values(at, srgb::decoded) })
-        .collect();
+    let colours = [("R", 0), ("G", 1), ("B", 2)].into_iter();
+    let colour =
+        |(name, at): (&str, _)| Channel { name: name.into(), values: values(at, srgb::decoded) };
+    let mut channels: Vec<Channel> = colours.map(colour).collect();
     if has_alpha {
         channels.push(Channel { name: "A".into(), values: values(3, |alpha| alpha) });
     }
-    let image = Image { width: width as usize, height: height as usize, channels };
-    image.check()?;
-    Ok(image)
+    Ok(Image { width: width as usize, height: height as usize, channels })
+}
+
+fn fault(origin: &str, reason: &str) -> ImageError {
+    ImageError::Unusable(format!("{origin}: malformed PNG: {reason}"))
 }
 
 /// The bytes of an 8-bit file of sRGB-encoded pixels; `origin` names it in messages.
@@ -50,7 +39,7 @@ pub(super) fn encode(
     height: usize,
     pixels: &[[u8; 3]],
 ) -> Result<Vec<u8>, ImageError> {
-    let fault = |reason: String| ImageError::Png { origin: origin.into(), reason };
+    let fault = |reason: String| fault(origin, &reason);
     if pixels.len() != width.saturating_mul(height) {
         return Err(fault(format!("{} pixels for {width} × {height}", pixels.len())));
     }
