@@ -79,20 +79,12 @@ const KNOWN_FORMATS: &str = "refractiveindex.info YAML (.yml, .yaml); CSV table 
                              height map (.exr)";
 
 /// Reads a file of an outside format, told by its extension. An `.exr` file with a sidecar of axes
-/// is a height map, else an environment map.
+/// is a height map, else an environment map, of which `negative` says what becomes of negative values.
 ///
 /// # Errors
 /// [`MeasuredError::Unusable`], listing the formats, for another extension; otherwise what the
 /// format's reader finds wrong, with the file and, in text, the line.
-pub fn import(path: &Path) -> Result<Imported, MeasuredError> {
-    import_with(path, Negative::Refused)
-}
-
-/// As [`import`], with a say in what becomes of negative values of an environment map.
-///
-/// # Errors
-/// As [`import`].
-pub fn import_with(path: &Path, negative: Negative) -> Result<Imported, MeasuredError> {
+pub fn import(path: &Path, negative: Negative) -> Result<Imported, MeasuredError> {
     let height_map = || HeightMap::read(path).map(Content::HeightMap);
     let environment = || Environment::read_with(path, negative).map(Content::Environment);
     let (format, content) = match extension(path).as_str() {
