@@ -2,11 +2,16 @@
 
 use std::path::Path;
 
-use super::png_file;
+use ::image::{ExtendedColorType, ImageEncoder};
+
+use crate::measured::{decoded_png, srgb};
 use crate::table::{TableError, decode_exr, encode_exr, store};
 
 /// What the name of a channel of standard errors begins with: `stderr.R` belongs to `R`.
 pub const STANDARD_ERROR_PREFIX: &str = "stderr.";
+
+/// How a pixel that is not finite is shown.
+const NON_FINITE: [u8; 3] = [255, 0, 255];
 
 /// An image. Rows from top to bottom, pixels from left to right; a pixel's centre is half a pixel
 /// from its edges.
@@ -99,7 +104,7 @@ impl Image {
         let path = path.as_ref();
         let decode = match Format::of(path)? {
             Format::Exr => decode_exr_image,
-            Format::Png => png_file::decode,
+            Format::Png => decode_png_image,
         };
         let image = decode(&path.display().to_string(), &store::read(path)?)?;
         image.check()?;
@@ -127,7 +132,7 @@ impl Image {
     /// # Errors
     /// As [`Image::colours`]; [`ImageError::File`] if the file cannot be written.
     pub fn write_png(&self, path: impl AsRef<Path>, exposure: f64) -> Result<Clipped, ImageError> {
-        let (pixels, clipped) = png_file::shown(&self.colours()?, exposure);
+        let (pixels, clipped) = shown(&self.colours()?, exposure);
         write_pixels(path.as_ref(), self.width, self.height, &pixels)?;
         Ok(clipped)
     }
@@ -137,8 +142,8 @@ impl Image {
     /// # Errors
     /// As [`Image::colours`].
     pub fn png(&self, exposure: f64) -> Result<Vec<u8>, ImageError> {
-        let (pixels, _) = png_file::shown(&self.colours()?, exposure);
-        png_file::encode("picture", self.width, self.height, &pixels)
+        let (pixels, _) = shown(&self.colours()?, exposure);
+        encode_png("picture", self.width, self.height, &pixels)
     }
 
     /// The channel called `name`.
@@ -234,7 +239,7 @@ pub fn write_pixels(
     height: usize,
     pixels: &[[u8; 3]],
 ) -> Result<(), ImageError> {
-    let bytes = png_file::encode(&path.display().to_string(), width, height, pixels)?;
+    let bytes = encode_png(&path.display().to_string(), width, height, pixels)?;
     Ok(store::atomic_write(path, &bytes)?)
 }
 
@@ -247,6 +252,66 @@ fn decode_exr_image(origin: &str, bytes: &[u8]) -> Result<Image, ImageError> {
     let rank = |channel: &Channel| ["R", "G", "B", "A"].iter().position(|c| *c == channel.name);
     channels.sort_by_key(|channel| rank(channel).unwrap_or(usize::MAX));
     Ok(Image { width: decoded.width, height: decoded.height, channels })
+}
+
+/// The colours of a PNG file as linear ones, and its coverage as it is.
+fn decode_png_image(origin: &str, bytes: &[u8]) -> Result<Image, ImageError> {
+    let picture = decoded_png(bytes).map_err(|e| png_fault(origin, &e.to_string()))?;
+    let has_alpha = picture.color().has_alpha();
+    let picture = picture.into_rgba16();
+    let (width, height) = picture.dimensions();
+    let values = |at: usize, decoded: fn(f64) -> f64| -> Vec<f32> {
+        let codes = picture.as_raw().chunks_exact(4).filter_map(|pixel| pixel.get(at));
+        codes.map(|code| decoded(f64::from(*code) / 65535.0) as f32).collect()
+    };
+    let colours = [("R", 0), ("G", 1), ("B", 2)].into_iter();
+    let colour =
+        |(name, at): (&str, _)| Channel { name: name.into(), values: values(at, srgb::decoded) };
+    let mut channels: Vec<Channel> = colours.map(colour).collect();
+    if has_alpha {
+        channels.push(Channel { name: "A".into(), values: values(3, |alpha| alpha) });
+    }
+    Ok(Image { width: width as usize, height: height as usize, channels })
+}
+
+fn png_fault(origin: &str, reason: &str) -> ImageError {
+    ImageError::Unusable(format!("{origin}: malformed PNG: {reason}"))
+}
+
+/// The bytes of an 8-bit file of sRGB-encoded pixels; `origin` names it in messages.
+fn encode_png(
+    origin: &str,
+    width: usize,
+    height: usize,
+    pixels: &[[u8; 3]],
+) -> Result<Vec<u8>, ImageError> {
+    let fault = |reason: String| png_fault(origin, &reason);
+    if pixels.len() != width.saturating_mul(height) {
+        return Err(fault(format!("{} pixels for {width} × {height}", pixels.len())));
+    }
+    let side = |n: usize| u32::try_from(n).map_err(|_| fault(format!("{n} pixels to a side")));
+    let mut bytes = Vec::new();
+    ::image::codecs::png::PngEncoder::new(&mut bytes)
+        .write_image(pixels.as_flattened(), side(width)?, side(height)?, ExtendedColorType::Rgb8)
+        .map_err(|e| fault(e.to_string()))?;
+    Ok(bytes)
+}
+
+/// Linear colours times 2^`exposure` as sRGB bytes, and what had to be clipped.
+fn shown(colours: &[[f32; 3]], exposure: f64) -> (Vec<[u8; 3]>, Clipped) {
+    let gain = exposure.exp2();
+    let mut clipped = Clipped::default();
+    let pixel = |colour: &[f32; 3]| {
+        let exposed = colour.map(|value| f64::from(value) * gain);
+        if exposed.iter().any(|value| !value.is_finite()) {
+            clipped.non_finite += 1;
+            return NON_FINITE;
+        }
+        clipped.below += usize::from(exposed.iter().any(|value| *value < 0.0));
+        clipped.above += usize::from(exposed.iter().any(|value| *value > 1.0));
+        exposed.map(|value| (255.0 * srgb::encoded(value.clamp(0.0, 1.0))).round() as u8)
+    };
+    (colours.iter().map(pixel).collect(), clipped)
 }
 
 /// Formats of image files.

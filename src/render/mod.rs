@@ -15,7 +15,6 @@ pub mod geometry;
 pub mod image;
 mod lobe;
 mod monte_carlo;
-mod png_file;
 pub mod polygon;
 mod prepared;
 mod rendered;
