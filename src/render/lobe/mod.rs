@@ -20,7 +20,6 @@ use super::shading::{Moved, Sampler, Shader, Shading};
 use super::times::TimedPass;
 use crate::effect::Candidate;
 use crate::gpu::TimingOptions;
-use crate::measured::spectra::Spectra;
 use crate::project::Project;
 
 /// A scratch under its lights, with the directions of view of every pixel.
@@ -49,8 +48,7 @@ impl Lobe {
     ) -> Result<Self, RenderError> {
         let approximations = scene.approximations.iter().map(|of| Forms::load(&of.method, project));
         let approximations = approximations.collect::<Result<_, _>>()?;
-        let waves =
-            spectrum::waves(scratch, spectrum, || Spectra::load(&project.data().join("spectra")))?;
+        let waves = spectrum::waves(scratch, spectrum, &project.data().join("spectra"))?;
         Ok(Self {
             lit: Illumination::new(scene, direction_deg, waves)?,
             views: scene.view.directions(direction_deg, 0..scene.view.pixels()),

@@ -31,6 +31,7 @@
 //! functions ([`Spectra::linear_srgb_weights`]); what reflects 1 at every wavelength is white.
 
 use std::f64::consts::PI;
+use std::path::Path;
 
 use crate::measured::spectra::Spectra;
 use crate::render::RenderError;
@@ -58,14 +59,14 @@ fn response(scratch: &Scratch, wavelength_nm: f64) -> f64 {
     2.0 * width * width * depth
 }
 
-/// The wavelengths of a picture; `spectra` are needed for spectral ones.
+/// The wavelengths of a picture; spectral ones take the spectra in the folder `spectra`.
 ///
 /// # Errors
 /// [`RenderError::Measured`] if the spectra cannot be had or leave out too much of the white.
 pub(super) fn waves(
     scratch: &Scratch,
     spectrum: &Spectrum,
-    spectra: impl FnOnce() -> Result<Spectra, crate::measured::MeasuredError>,
+    spectra: &Path,
 ) -> Result<Vec<Wave>, RenderError> {
     let (wavelengths, weights) = match spectrum {
         Spectrum::Rgb(wavelengths) => {
@@ -73,7 +74,7 @@ pub(super) fn waves(
             (wavelengths.to_vec(), (0..3).map(channel).collect())
         }
         Spectrum::Spectral(wavelengths) => {
-            (wavelengths.clone(), spectra()?.linear_srgb_weights(wavelengths)?.weights)
+            (wavelengths.clone(), Spectra::load(spectra)?.linear_srgb_weights(wavelengths)?.weights)
         }
     };
     let wave = |(&wavelength_nm, weight): (&f64, [f64; 3])| {
@@ -104,8 +105,7 @@ mod tests {
 
     #[test]
     fn each_channel_has_its_wavelength() -> Result<(), RenderError> {
-        let none = || Err(crate::measured::MeasuredError::unusable("test", "not needed"));
-        let waves = waves(&SCRATCH, &Spectrum::Rgb([650.0, 532.0, 450.0]), none)?;
+        let waves = waves(&SCRATCH, &Spectrum::Rgb([650.0, 532.0, 450.0]), Path::new("none"))?;
         assert_eq!(waves.len(), 3);
         assert_eq!(waves[1].weight[0], 0.0);
         assert_eq!(waves[1].weight[1], response(&SCRATCH, 532.0));

@@ -7,8 +7,9 @@ mod methods;
 mod sampling;
 mod sums;
 
+use std::ops::Range;
 use std::path::Path;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 pub use angles::AngleError;
 pub use kernels::DiffractionKernels;
@@ -45,8 +46,8 @@ pub(super) struct Surface {
     operator: OnceLock<AzimuthalOperator>,
 }
 
-/// Shades what pixels of the picture show of one frame.
-type HitShader<'a> = Box<dyn Fn(&[usize], &[Hit]) -> Result<Columns, RenderError> + 'a>;
+/// Shades what is met in one frame.
+type HitShader<'a> = Box<dyn Fn(&[Hit]) -> Result<Columns, RenderError> + 'a>;
 
 impl Surface {
     /// Loads what `scene` names and finds what its pixels show.
@@ -114,24 +115,36 @@ impl Surface {
         table_taps(&self.kernels.table).thinned(LEFT_OUT)
     }
 
-    /// The picture, from one shader per frame; black where nothing is met.
-    fn over<'a>(&'a self, shaders: Vec<HitShader<'a>>) -> Shader<'a> {
-        Box::new(move |range| {
-            let mut picture = vec![vec![0.0_f32; range.len()]; 3];
-            for (lit, shade) in self.frames.iter().zip(&shaders) {
-                let (pixels, hits) = lit.within(&range);
-                if hits.is_empty() {
-                    continue;
-                }
-                let columns = shade(pixels, hits)?.into_iter().zip(self.reflectance);
-                for (channel, (column, reflectance)) in picture.iter_mut().zip(columns) {
-                    for (pixel, value) in pixels.iter().zip(column) {
-                        channel[pixel - range.start] = (f64::from(value) * reflectance) as f32;
-                    }
+    /// Pixels of the picture, from what `shade` says for what a frame shows of them; black where
+    /// nothing is met.
+    fn shaded(
+        &self,
+        range: Range<usize>,
+        shade: impl Fn(usize, &[usize], &[Hit]) -> Result<Columns, RenderError>,
+    ) -> Result<Columns, RenderError> {
+        let mut picture = vec![vec![0.0_f32; range.len()]; 3];
+        for (frame, lit) in self.frames.iter().enumerate() {
+            let (pixels, hits) = lit.within(&range);
+            if hits.is_empty() {
+                continue;
+            }
+            let columns = shade(frame, pixels, hits)?.into_iter().zip(self.reflectance);
+            for (channel, (column, reflectance)) in picture.iter_mut().zip(columns) {
+                for (pixel, value) in pixels.iter().zip(column) {
+                    channel[pixel - range.start] = (f64::from(value) * reflectance) as f32;
                 }
             }
-            Ok(picture)
-        })
+        }
+        Ok(picture)
+    }
+
+    /// The picture, from a shader per frame.
+    fn over<'a>(
+        &'a self,
+        shader: impl FnMut(&'a Lit) -> Result<HitShader<'a>, RenderError>,
+    ) -> Result<Shader<'a>, RenderError> {
+        let shaders = self.frames.iter().map(shader).collect::<Result<Vec<_>, _>>()?;
+        Ok(Box::new(move |range| self.shaded(range, |frame, _, hits| shaders[frame](hits))))
     }
 
     fn first(&self) -> Result<&Lit, RenderError> {
@@ -146,7 +159,7 @@ fn looked_up<'a>(
     backend: Backend<'a>,
 ) -> Result<HitShader<'a>, RenderError> {
     let painter = lookup(&map, backend)?;
-    Ok(Box::new(move |_, hits| painter.colours(&lit.directions(hits, in_object))))
+    Ok(Box::new(move |hits| painter.colours(&lit.directions(hits, in_object))))
 }
 
 /// A map of the project by name, or a file.
@@ -175,18 +188,15 @@ fn radiance(
 
 impl Shading for Surface {
     fn exact(&self) -> Result<Shader<'_>, RenderError> {
-        let mut shaders: Vec<HitShader<'_>> = Vec::with_capacity(self.frames.len());
-        let taps = self.taps();
-        for lit in &self.frames {
-            shaders.push(if self.reference == ReferenceMethod::Full {
-                let map = self.operator().apply(&lit.object);
-                looked_up(lit, (map, true), Backend::Lanes)?
-            } else {
-                let taps = taps.clone();
-                Box::new(move |_, hits| Ok(rgb_columns(&integrals(&lit.world, hits, &taps))))
-            });
+        if self.reference == ReferenceMethod::Full {
+            let map = |lit: &Lit| self.operator().apply(&lit.object);
+            return self.over(|lit| looked_up(lit, (map(lit), true), Backend::Lanes));
         }
-        Ok(self.over(shaders))
+        let taps = Arc::new(self.taps());
+        self.over(|lit| {
+            let taps = Arc::clone(&taps);
+            Ok(Box::new(move |hits| Ok(rgb_columns(&integrals(&lit.world, hits, &taps)))))
+        })
     }
 
     fn picture<'a>(
@@ -195,22 +205,15 @@ impl Shading for Surface {
         _: Option<Moved<'_>>,
         backend: Backend<'a>,
     ) -> Result<Shader<'a>, RenderError> {
-        let plan = self.plan(at)?;
-        let mut shaders: Vec<HitShader<'a>> = Vec::with_capacity(self.frames.len());
-        for lit in &self.frames {
-            shaders.push(match plan {
-                Plan::Sums(taps) => {
-                    let sums = Sums::new(&lit.world, taps, backend)?;
-                    Box::new(move |_, hits| sums.at(hits))
-                }
-                Plan::Passes(passes) => {
-                    let straighten = self.convolution.straighten;
-                    let convolved = lit.convolved(passes, straighten, backend)?;
-                    looked_up(lit, convolved, backend)?
-                }
-            });
+        let straighten = self.convolution.straighten;
+        match self.plan(at)? {
+            Plan::Sums(taps) => self.over(|lit| {
+                let sums = Sums::new(&lit.world, taps, backend)?;
+                Ok(Box::new(move |hits| sums.at(hits)))
+            }),
+            Plan::Passes(passes) => self
+                .over(|lit| looked_up(lit, lit.convolved(passes, straighten, backend)?, backend)),
         }
-        Ok(self.over(shaders))
     }
 
     fn sampler<'a>(&'a self, seed: u64, backend: Backend<'a>) -> Result<Sampler<'a>, RenderError> {
@@ -221,10 +224,9 @@ impl Shading for Surface {
             painters.push(Painter::new(vec![kernel], backend)?);
         }
         Ok(Box::new(move |range, first| {
-            let shaders = painters.iter().map(|painter| -> HitShader<'_> {
-                Box::new(move |pixels, hits| painter.colours(&sampling::draws(pixels, hits, first)))
-            });
-            self.over(shaders.collect())(range)
+            self.shaded(range, |frame, pixels, hits| {
+                painters[frame].colours(&sampling::draws(pixels, hits, first))
+            })
         }))
     }
 
