@@ -10,7 +10,7 @@ use striae::project::Project;
 use striae::registry::Registry;
 use striae::render::geometry::{Frame, Hit};
 use striae::render::sphere_map::{AngularKernel, AzimuthalOperator, SphereMap, convolved};
-use striae::render::surface::{integrals, surface_sums, table_taps};
+use striae::render::surface::{Sums, integrals, table_taps};
 use striae::render::{self, Backend, PreparedScene, Scene};
 use striae::table::{Axis, Grid, GridChannel};
 
@@ -73,7 +73,7 @@ fn two_passes_at_full_rank_are_the_whole_kernel() {
     let errors = [32, 64].map(|width| {
         let map = smooth_map(width);
         let whole = AzimuthalOperator::new(&kernel.taps(), width, width / 2).apply(&map);
-        let (first, second): (Vec<_>, Vec<_>) = kernel.passes(&all).into_iter().unzip();
+        let [first, second] = kernel.passes(&all);
         let layers = convolved(&[map], &first, Backend::Lanes).expect("first passes");
         let terms = convolved(&layers, &second, Backend::Lanes).expect("second passes");
         let mut sum = vec![0.0_f32; whole.rgb.len()];
@@ -147,7 +147,8 @@ fn at_normal_incidence_the_convolution_is_the_integral() {
 fn sums_in_f32_follow_the_reference() {
     let (map, taps, hits) = (smooth_map(32), table_taps(&table(33)), hits());
     let exact = integrals(&map, &hits, &taps);
-    let lanes = surface_sums(&map, &hits, &taps, Backend::Lanes).expect("lanes");
+    let sums = |backend| Sums::new(&map, &taps, backend).and_then(|sums| sums.at(&hits));
+    let lanes = sums(Backend::Lanes).expect("lanes");
     for (channel, column) in lanes.iter().enumerate() {
         for (value, exact) in column.iter().zip(&exact) {
             let error = (f64::from(*value) / exact[channel] - 1.0).abs();
@@ -159,7 +160,7 @@ fn sums_in_f32_follow_the_reference() {
         Err(error) if striae::gpu::required() => panic!("{error}"),
         Err(error) => return println!("skipped: {error}"),
     };
-    let found = surface_sums(&map, &hits, &taps, Backend::Device(&device)).expect("a kernel");
+    let found = sums(Backend::Device(&device)).expect("a kernel");
     for (device, lanes) in found.iter().zip(&lanes) {
         assert!(relative_rms(device, lanes) < 1e-4);
     }

@@ -44,7 +44,7 @@ pub(super) struct Arguments {
 /// Reads, writes, and says what was found.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     let negative = if arguments.negative_as_black { Negative::Black } else { Negative::Refused };
-    let mut imported = measured::import_with(&arguments.file, negative)?;
+    let mut imported = measured::import(&arguments.file, negative)?;
     let is_map = matches!(imported.content, Content::Environment(_));
     if !is_map && (arguments.width.is_some() || arguments.negative_as_black) {
         let (file, what) = (arguments.file.display(), imported.content.name());

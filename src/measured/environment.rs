@@ -1,10 +1,10 @@
 //! Environment maps: radiance from every direction, in latitude–longitude format.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
-use super::samples::Samples;
-use super::{MeasuredError, environment_file, environment_resized};
+use super::MeasuredError;
+use super::error::require;
+use super::samples::{Samples, size_fault};
 use crate::table::{MAX_PIXEL_BYTES, TableError};
 
 /// Fewest rows of a map.
@@ -72,6 +72,19 @@ impl LatLong {
         self.between(x - 0.5, y - 0.5)
     }
 
+    /// R, G, B in a direction of any length but 0 between the four of `texels`, row by row, around it,
+    /// by their shares ([`LatLong::around`]); those that are not there are black.
+    pub fn bilinear(&self, direction: [f64; 3], texels: &[[f32; 3]]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (texel, share) in self.around(direction) {
+            let texel = texels.get(texel).copied().unwrap_or_default();
+            for (sum, value) in sum.iter_mut().zip(texel) {
+                *sum += share * f64::from(value);
+            }
+        }
+        sum
+    }
+
     /// The four texels around a place between the centres of texels, which have whole coordinates.
     pub fn between(&self, x: f64, y: f64) -> [(usize, f64); 4] {
         let (left, top) = (x.floor(), y.floor());
@@ -126,64 +139,15 @@ impl Environment {
         Ok(map)
     }
 
-    /// Reads a map: Radiance (`.hdr`, RGBE; exposure and colour correction divided out) or EXR
-    /// (`.exr`, channels `R`, `G`, `B`, others not looked at).
-    ///
-    /// Columns are taken in the order of the file. A panorama, in which azimuth falls to the right
-    /// as it does for a viewer inside, so becomes its mirror image.
-    ///
-    /// # Errors
-    /// [`MeasuredError`] naming the file: not there, another format, malformed or truncated,
-    /// missing channels (listing those there), and as [`Environment::check`].
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, MeasuredError> {
-        Self::read_with(path, Negative::Refused)
-    }
-
-    /// As [`Environment::read`], with a say in what becomes of negative values.
-    ///
-    /// # Errors
-    /// As [`Environment::read`].
-    pub fn read_with(path: impl AsRef<Path>, negative: Negative) -> Result<Self, MeasuredError> {
-        environment_file::read(path.as_ref(), negative)
-    }
-
-    /// Writes the map as EXR with channels `R`, `G`, `B`, whole or not at all; the same map always
-    /// gives the same bytes. Values are halves, within 2⁻¹¹ of the map's (2⁻²⁵ below 2⁻¹⁴), or f32
-    /// where one exceeds the largest half, 65504, or where halves would leave it all black.
-    ///
-    /// # Errors
-    /// As [`Environment::check`]; [`MeasuredError::Table`] if the file cannot be written.
-    pub fn write_exr(&self, path: impl AsRef<Path>) -> Result<(), MeasuredError> {
-        environment_file::write(self, path.as_ref())
-    }
-
-    /// The map with `width` texels around and `width`/2 rows: each texel is the mean of the texels
-    /// that it overlaps, weighted with the solid angles of the overlaps, also where it is smaller
-    /// than they are. Keeps [`Environment::mean`] to the rounding of f32.
-    ///
-    /// # Errors
-    /// [`MeasuredError::Size`] if `width` is odd or below 2 · [`LEAST_HEIGHT`], and as
-    /// [`Environment::check`].
-    pub fn resized(&self, width: usize) -> Result<Self, MeasuredError> {
-        environment_resized::resized(self, width)
-    }
-
     /// How its texels lie over the sphere.
     pub fn layout(&self) -> LatLong {
         LatLong { width: self.width, height: self.height }
     }
 
-    /// Linear R, G, B from a direction of any length but 0: bilinear ([`LatLong::around`]). Black
+    /// Linear R, G, B from a direction of any length but 0: bilinear ([`LatLong::bilinear`]). Black
     /// for a map without texels.
     pub fn radiance(&self, direction: [f64; 3]) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for (texel, share) in self.layout().around(direction) {
-            let texel = self.radiance.get(texel).copied().unwrap_or_default();
-            for (sum, value) in sum.iter_mut().zip(texel) {
-                *sum += share * f64::from(value);
-            }
-        }
-        sum
+        self.layout().bilinear(direction, &self.radiance)
     }
 
     /// Solid angle of a texel of `row` (below `height`), sr: 2π/width (cos θ_top − cos θ_bottom).
@@ -242,21 +206,16 @@ impl Environment {
         let (origin, width, height) = (self.origin.as_str(), self.width, self.height);
         require_size(origin, width, height)?;
         let samples = Samples::filling(origin, [width, height], &self.radiance)?;
-        let found = |texel: &[f32; 3], wrong: fn(f32) -> bool| {
-            texel.iter().copied().find(|value| wrong(*value)).map(f64::from)
-        };
         samples.refuse("texels are not finite", "finite radiance", |texel| {
-            found(texel, |value| !value.is_finite())
+            texel.iter().find(|value| !value.is_finite()).map(|value| f64::from(*value))
         })?;
         samples.refuse("texels are negative", "radiance of at least 0", |texel| {
-            found(texel, |value| value < 0.0)
+            texel.iter().find(|value| **value < 0.0).map(|value| f64::from(*value))
         })?;
-        if self.radiance.iter().flatten().all(|value| *value == 0.0) {
-            let total = self.radiance.len();
-            let reason = format!("all {total} texels are black, expected light from somewhere");
-            return Err(MeasuredError::implausible(origin, reason));
-        }
-        Ok(())
+        let total = self.radiance.len();
+        require(self.radiance.iter().flatten().any(|value| *value != 0.0), origin, || {
+            format!("all {total} texels are black, expected light from somewhere")
+        })
     }
 }
 
@@ -267,13 +226,7 @@ pub(crate) fn luminance(rgb: [f64; 3]) -> f64 {
 
 /// Checks the size alone, before there is memory for it.
 pub(super) fn require_size(origin: &str, width: usize, height: usize) -> Result<(), MeasuredError> {
-    let fault = |expected: &'static str| MeasuredError::Size {
-        origin: origin.into(),
-        what: "texels",
-        width,
-        height,
-        expected,
-    };
+    let fault = |expected| size_fault(origin, [width, height], "texels", expected);
     if height.checked_mul(2) != Some(width) {
         return Err(fault("twice as wide as high (latitude–longitude)"));
     }

@@ -6,9 +6,9 @@ use std::path::Path;
 use image::codecs::hdr::HdrDecoder;
 use image::{DynamicImage, ImageDecoder};
 
-use super::environment::{Negative, require_size};
-use super::import::extension;
-use super::{Environment, MeasuredError};
+use super::environment::require_size;
+use super::import::{extension, unknown_format};
+use super::{Environment, MeasuredError, Negative};
 use crate::table::{decode_exr, encode_exr, encode_half_exr, store};
 
 /// The channels of a map.
@@ -23,33 +23,66 @@ const SMALLEST_HALF: f32 = 1.0 / 16_777_216.0;
 /// What Radiance files of another tool begin with; the decoder knows `#?RADIANCE` alone.
 const OTHER_SIGNATURE: &[u8] = b"#?RGBE";
 
-/// Texels of a file, not yet looked at.
-struct Texels {
-    width: usize,
-    height: usize,
-    radiance: Vec<[f32; 3]>,
-}
-
-/// Reads a map, of the format that the name ends in.
-pub(super) fn read(path: &Path, negative: Negative) -> Result<Environment, MeasuredError> {
-    let decode = match extension(path).as_str() {
-        "hdr" => radiance,
-        "exr" => exr,
-        _ => return Err(MeasuredError::unknown_format(path, "Radiance (.hdr); OpenEXR (.exr)")),
-    };
-    let bytes = store::read(path)?;
-    let origin = path.display().to_string();
-    let Texels { width, height, mut radiance } = decode(&origin, &bytes)?;
-    let black = match negative {
-        Negative::Refused => None,
-        Negative::Black => raise_to_black(&mut radiance),
-    };
-    let mut map = Environment::new(width, height, radiance, origin)?;
-    map.origin = store::origin(path, &bytes);
-    if let Some((count, lowest)) = black {
-        map.origin.push_str(&format!(", {count} negative values, down to {lowest}, taken as 0"));
+impl Environment {
+    /// Reads a map: Radiance (`.hdr`, RGBE; exposure and colour correction divided out) or EXR
+    /// (`.exr`, channels `R`, `G`, `B`, others not looked at).
+    ///
+    /// Columns are taken in the order of the file. A panorama, in which azimuth falls to the right
+    /// as it does for a viewer inside, so becomes its mirror image.
+    ///
+    /// # Errors
+    /// [`MeasuredError`] naming the file: not there, another format, malformed or truncated,
+    /// missing channels (listing those there), and as [`Environment::check`].
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, MeasuredError> {
+        Self::read_with(path, Negative::Refused)
     }
-    Ok(map)
+
+    /// As [`Environment::read`], with a say in what becomes of negative values.
+    ///
+    /// # Errors
+    /// As [`Environment::read`].
+    pub fn read_with(path: impl AsRef<Path>, negative: Negative) -> Result<Self, MeasuredError> {
+        let path = path.as_ref();
+        let decode = match extension(path).as_str() {
+            "hdr" => radiance,
+            "exr" => exr,
+            _ => return Err(unknown_format(path, "Radiance (.hdr); OpenEXR (.exr)")),
+        };
+        let bytes = store::read(path)?;
+        let mut map = decode(&path.display().to_string(), &bytes)?;
+        let black = match negative {
+            Negative::Refused => None,
+            Negative::Black => raise_to_black(&mut map.radiance),
+        };
+        map.check()?;
+        map.origin = store::origin(path, &bytes);
+        if let Some((count, lowest)) = black {
+            map.origin
+                .push_str(&format!(", {count} negative values, down to {lowest}, taken as 0"));
+        }
+        Ok(map)
+    }
+
+    /// Writes the map as EXR with channels `R`, `G`, `B`, whole or not at all; the same map always
+    /// gives the same bytes. Values are halves, within 2⁻¹¹ of the map's (2⁻²⁵ below 2⁻¹⁴), or f32
+    /// where one exceeds the largest half, 65504, or where halves would leave it all black.
+    ///
+    /// # Errors
+    /// As [`Environment::check`]; [`MeasuredError::Table`] if the file cannot be written.
+    pub fn write_exr(&self, path: impl AsRef<Path>) -> Result<(), MeasuredError> {
+        self.check()?;
+        let plane = |at: usize| self.radiance.iter().map(|texel| texel[at]).collect::<Vec<f32>>();
+        let planes = [0, 1, 2].map(plane);
+        let channels: Vec<(&str, &[f32])> =
+            CHANNELS.into_iter().zip(planes.iter().map(Vec::as_slice)).collect();
+        let encode = match planes.iter().flatten().copied().fold(0.0, f32::max) {
+            SMALLEST_HALF..=LARGEST_HALF => encode_half_exr,
+            _ => encode_exr,
+        };
+        let path = path.as_ref();
+        let bytes = encode(&path.display().to_string(), self.width, self.height, &channels)?;
+        Ok(store::atomic_write(path, &bytes)?)
+    }
 }
 
 /// Makes finite negative values 0; says how many there were, if any, and the lowest.
@@ -63,46 +96,27 @@ fn raise_to_black(radiance: &mut [[f32; 3]]) -> Option<(usize, f32)> {
     found
 }
 
-/// Writes a map as EXR.
-pub(super) fn write(map: &Environment, path: &Path) -> Result<(), MeasuredError> {
-    map.check()?;
-    let plane = |at: usize| -> Vec<f32> {
-        map.radiance.iter().filter_map(|texel| texel.get(at)).copied().collect()
-    };
-    let planes = [plane(0), plane(1), plane(2)];
-    let channels: Vec<(&str, &[f32])> =
-        CHANNELS.into_iter().zip(planes.iter().map(Vec::as_slice)).collect();
-    let largest = planes.iter().flatten().copied().fold(0.0, f32::max);
-    let encode = match largest {
-        SMALLEST_HALF..=LARGEST_HALF => encode_half_exr,
-        _ => encode_exr,
-    };
-    let bytes = encode(&path.display().to_string(), map.width, map.height, &channels)?;
-    Ok(store::atomic_write(path, &bytes)?)
-}
-
-fn exr(origin: &str, bytes: &[u8]) -> Result<Texels, MeasuredError> {
+/// The texels of a file, not yet checked.
+fn exr(origin: &str, bytes: &[u8]) -> Result<Environment, MeasuredError> {
     let decoded = decode_exr(origin, bytes)?;
     let plane = |name: &str| decoded.channels.iter().find(|(n, _)| n == name).map(|(_, v)| v);
     let [Some(r), Some(g), Some(b)] = CHANNELS.map(plane) else {
         let missing: Vec<&str> =
             CHANNELS.into_iter().filter(|name| plane(name).is_none()).collect();
         let names: Vec<&str> = decoded.channels.iter().map(|(n, _)| n.as_str()).collect();
-        return Err(MeasuredError::Channel {
-            origin: origin.into(),
-            reason: format!("no channel {}, expected R, G and B", missing.join(", ")),
-            known: names.join(", "),
-        });
+        let (missing, known) = (missing.join(", "), names.join(", "));
+        let reason = format!("no channel {missing}, expected R, G and B; it has: {known}");
+        return Err(MeasuredError::unusable(origin, reason));
     };
     let radiance = r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b]).collect();
-    Ok(Texels { width: decoded.width, height: decoded.height, radiance })
+    let (width, height) = (decoded.width, decoded.height);
+    Ok(Environment { width, height, radiance, origin: origin.into() })
 }
 
-fn radiance(origin: &str, bytes: &[u8]) -> Result<Texels, MeasuredError> {
-    let fault = |reason: String| MeasuredError::Decoder {
-        origin: origin.into(),
-        format: "Radiance file",
-        reason,
+/// As [`exr`].
+fn radiance(origin: &str, bytes: &[u8]) -> Result<Environment, MeasuredError> {
+    let fault = |reason: String| {
+        MeasuredError::unusable(origin, format!("malformed Radiance file: {reason}"))
     };
     let attempt = || {
         let decoder = if bytes.starts_with(OTHER_SIGNATURE) {
@@ -133,5 +147,5 @@ fn radiance(origin: &str, bytes: &[u8]) -> Result<Texels, MeasuredError> {
     let [r, g, b] = divisors;
     let (width, height) = (pixels.width() as usize, pixels.height() as usize);
     let texels = pixels.pixels().map(|pixel| pixel.0).map(|[x, y, z]| [x / r, y / g, z / b]);
-    Ok(Texels { width, height, radiance: texels.collect() })
+    Ok(Environment { width, height, radiance: texels.collect(), origin: origin.into() })
 }

@@ -5,35 +5,42 @@ use std::f64::consts::FRAC_PI_2;
 use super::environment::require_size;
 use super::{Environment, MeasuredError};
 
-/// The map with `width` texels around.
-pub(super) fn resized(map: &Environment, width: usize) -> Result<Environment, MeasuredError> {
-    let height = width / 2;
-    let origin = format!("{}, resized to {width} × {height}", map.origin);
-    require_size(&origin, width, height)?;
-    map.check()?;
-    let columns = shares(map.width, width, |from, to| to - from);
-    // Texels of a row differ in solid angle as the cosines of their edges do, here as a product.
-    let rows = shares(map.height, height, |from, to| {
-        (FRAC_PI_2 * (from + to)).sin() * (FRAC_PI_2 * (to - from)).sin()
-    });
-    let mut radiance = Vec::with_capacity(width * height);
-    for overlaps in &rows {
-        let mut band = vec![[0.0; 3]; map.width];
-        for (row, share) in overlaps {
-            let texels = map.radiance.chunks(map.width).nth(*row).unwrap_or_default();
-            for (sum, texel) in band.iter_mut().zip(texels) {
-                add(sum, *share, texel.map(f64::from));
+impl Environment {
+    /// The map with `width` texels around and `width`/2 rows: each texel is the mean of the texels
+    /// that it overlaps, weighted with the solid angles of the overlaps, also where it is smaller
+    /// than they are. Keeps [`Environment::mean`] to the rounding of f32.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Unusable`] if `width` is odd or below 8, and as [`Environment::check`].
+    pub fn resized(&self, width: usize) -> Result<Self, MeasuredError> {
+        let height = width / 2;
+        let origin = format!("{}, resized to {width} × {height}", self.origin);
+        require_size(&origin, width, height)?;
+        self.check()?;
+        let columns = shares(self.width, width, |from, to| to - from);
+        // Texels of a row differ in solid angle as the cosines of their edges do, here as a product.
+        let rows = shares(self.height, height, |from, to| {
+            (FRAC_PI_2 * (from + to)).sin() * (FRAC_PI_2 * (to - from)).sin()
+        });
+        let mut radiance = Vec::with_capacity(width * height);
+        for overlaps in &rows {
+            let mut band = vec![[0.0; 3]; self.width];
+            for (row, share) in overlaps {
+                let texels = self.radiance.chunks(self.width).nth(*row).unwrap_or_default();
+                for (sum, texel) in band.iter_mut().zip(texels) {
+                    add(sum, *share, texel.map(f64::from));
+                }
+            }
+            for overlaps in &columns {
+                let mut sum = [0.0; 3];
+                for (column, share) in overlaps {
+                    add(&mut sum, *share, band.get(*column).copied().unwrap_or_default());
+                }
+                radiance.push(sum.map(|value| value as f32));
             }
         }
-        for overlaps in &columns {
-            let mut sum = [0.0; 3];
-            for (column, share) in overlaps {
-                add(&mut sum, *share, band.get(*column).copied().unwrap_or_default());
-            }
-            radiance.push(sum.map(|value| value as f32));
-        }
+        Self::new(width, height, radiance, origin)
     }
-    Environment::new(width, height, radiance, origin)
 }
 
 fn add(sum: &mut [f64; 3], share: f64, values: [f64; 3]) {

@@ -2,16 +2,28 @@
 
 use std::path::Path;
 
-use super::import::extension;
-use super::samples::{Samples, require_two};
-use super::{MeasuredError, height_map_raw};
-use crate::table::{Axis, Grid, GridChannel, units};
+use serde::Deserialize;
+
+use super::MeasuredError;
+use super::error::require;
+use super::import::{extension, unknown_format};
+use super::samples::{Samples, size_fault};
+use crate::table::{Axis, Grid, GridChannel, store, units};
 
 /// Name of the channel of heights in a grid.
 const HEIGHT: &str = "height";
 
 /// Name of the channel that is 1 where a grid has data and 0 where it has none.
 const VALID: &str = "valid";
+
+/// What a `dtype` begins with.
+const NUMBERS: &str = "little-endian f32, row-major [y][x]";
+
+/// What a `dtype` says before the unit.
+const HEIGHT_IN: &str = "height in ";
+
+/// Raw heights that differ by less are not in nm: it is a hundredth of an atom's radius.
+const LEAST_RANGE_NM: f64 = 1e-3;
 
 /// Heights of a surface over a regular grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,9 +58,9 @@ impl HeightMap {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeasuredError> {
         let path = path.as_ref();
         match extension(path).as_str() {
-            "f32" => height_map_raw::read(path),
+            "f32" => read_raw(path),
             "exr" => Self::from_grid(&Grid::read_exr(path)?),
-            _ => Err(MeasuredError::unknown_format(
+            _ => Err(unknown_format(
                 path,
                 "raw height map (.f32 with .json); grid (.exr with .exr.axes.toml)",
             )),
@@ -149,15 +161,14 @@ impl HeightMap {
     /// The first rule that is broken.
     pub fn check(&self) -> Result<(), MeasuredError> {
         let (origin, width, height) = (self.origin.as_str(), self.nx, self.ny);
-        let implausible = |reason: String| MeasuredError::implausible(origin, reason);
         let size = [width, height];
-        require_two(origin, size, "samples", "at least 2 along x and along y")?;
+        if width.min(height) < 2 {
+            return Err(size_fault(origin, size, "samples", "at least 2 along x and along y"));
+        }
         for (name, spacing) in [("dx_um", self.dx_um), ("dy_um", self.dy_um)] {
-            if !(spacing.is_finite() && spacing > 0.0) {
-                return Err(implausible(format!(
-                    "{name} is {spacing} µm, expected a positive finite distance"
-                )));
-            }
+            require(spacing.is_finite() && spacing > 0.0, origin, || {
+                format!("{name} is {spacing} µm, expected a positive finite distance")
+            })?;
         }
         let samples = Samples::filling(origin, size, &self.height_nm)?;
         samples.refuse("heights are infinite", "nm, or NaN where there is no data", |nm| {
@@ -165,16 +176,92 @@ impl HeightMap {
         })?;
         let Some([low, high]) = self.range_nm() else {
             let total = self.height_nm.len();
-            return Err(implausible(format!("none of {total} samples has data: all are NaN")));
+            let reason = format!("none of {total} samples has data: all are NaN");
+            return Err(MeasuredError::unusable(origin, reason));
         };
         let [x, y] = self.size_um();
         let range = high - low;
-        if range > 1e3 * x.max(y) {
-            return Err(implausible(format!(
+        require(range <= 1e3 * x.max(y), origin, || {
+            format!(
                 "heights range over {range} nm, more than the lateral size of {x} × {y} µm; \
                  expected heights in nm and distances in µm"
-            )));
-        }
-        Ok(())
+            )
+        })
     }
+}
+
+/// What stands in `<stem>.json`.
+#[derive(Debug, Deserialize)]
+struct Sidecar {
+    nx: usize,
+    ny: usize,
+    dx_um: f64,
+    dy_um: f64,
+    dtype: Option<String>,
+    #[serde(alias = "z_unit", alias = "unit")]
+    height_unit: Option<String>,
+}
+
+/// Reads f32 numbers in one file, and their size in a JSON sidecar.
+fn read_raw(path: &Path) -> Result<HeightMap, MeasuredError> {
+    let sidecar_path = path.with_extension("json");
+    let sidecar_origin = sidecar_path.display().to_string();
+    let bytes = store::read(path)?;
+    let sidecar = parse(&sidecar_origin, &store::read_text(&sidecar_path)?)?;
+    let mut map = heights(&path.display().to_string(), &bytes, &sidecar_origin, &sidecar)?;
+    map.origin = store::origin(path, &bytes);
+    Ok(map)
+}
+
+fn parse(origin: &str, text: &str) -> Result<Sidecar, MeasuredError> {
+    let sidecar: Sidecar = serde_json::from_str(text).map_err(|e| MeasuredError::Malformed {
+        origin: origin.into(),
+        line: e.line().max(1) as u64,
+        reason: e.to_string(),
+    })?;
+    if let Some(dtype) = &sidecar.dtype {
+        require(dtype.starts_with(NUMBERS), origin, || {
+            format!("dtype: expected {NUMBERS:?}, got {dtype:?}")
+        })?;
+    }
+    let in_dtype = sidecar.dtype.as_deref().and_then(|dtype| dtype.split_once(HEIGHT_IN));
+    let in_dtype = in_dtype.and_then(|(_, rest)| rest.split([',', ';', ' ']).next());
+    for (key, unit) in [("dtype", in_dtype), ("height_unit", sidecar.height_unit.as_deref())] {
+        let unit = unit.unwrap_or("nm");
+        require(unit == "nm", origin, || format!("{key}: expected heights in nm, got {unit:?}"))?;
+    }
+    Ok(sidecar)
+}
+
+fn heights(
+    origin: &str,
+    bytes: &[u8],
+    sidecar_origin: &str,
+    sidecar: &Sidecar,
+) -> Result<HeightMap, MeasuredError> {
+    let (nx, ny) = (sidecar.nx, sidecar.ny);
+    let expected = (nx as u64).saturating_mul(ny as u64).saturating_mul(4);
+    let got = bytes.len() as u64;
+    require(got == expected, origin, || {
+        let of = format!("{nx} × {ny} samples of 4 bytes, as {sidecar_origin} says");
+        format!("{got} bytes, expected {expected} for {of}")
+    })?;
+    let (samples, _) = bytes.as_chunks();
+    let map = HeightMap {
+        nx,
+        ny,
+        dx_um: sidecar.dx_um,
+        dy_um: sidecar.dy_um,
+        height_nm: samples.iter().map(|b| f64::from(f32::from_le_bytes(*b))).collect(),
+        origin: origin.into(),
+    };
+    map.check()?;
+    let range = map.range_nm().map_or(0.0, |[low, high]| high - low);
+    require(range == 0.0 || range >= LEAST_RANGE_NM, origin, || {
+        format!(
+            "heights range over {range:e} nm, less than {LEAST_RANGE_NM} nm; expected heights in nm, \
+             not in m or µm"
+        )
+    })?;
+    Ok(map)
 }

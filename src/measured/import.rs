@@ -54,16 +54,16 @@ impl Imported {
     /// EXR ([`Environment::write_exr`]).
     ///
     /// # Errors
-    /// [`MeasuredError::OutputFormat`] if `path` ends in `.exr` for a table or in anything else for
-    /// a map; else as [`Table::write_csv`], [`crate::table::Grid::write_exr`] and
+    /// [`MeasuredError::Unusable`] if `path` ends in `.exr` for a table or in anything else for a
+    /// map; else as [`Table::write_csv`], [`crate::table::Grid::write_exr`] and
     /// [`Environment::write_exr`].
     pub fn write(&self, path: &Path) -> Result<(), MeasuredError> {
         let is_exr = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
         let is_table = matches!(self.content, Content::Table(_));
         if is_exr == is_table {
             let expected = if is_table { ".csv" } else { ".exr" };
-            let what = self.content.name();
-            return Err(MeasuredError::OutputFormat { path: path.into(), what, expected });
+            let reason = format!("{} is written as {expected}", self.content.name());
+            return Err(MeasuredError::unusable(path.display().to_string(), reason));
         }
         match &self.content {
             Content::Table(table) => Ok(table.write_csv(path, &self.notes)?),
@@ -73,56 +73,36 @@ impl Imported {
     }
 }
 
-/// A format that [`import`] reads.
-struct Format {
-    name: &'static str,
-    extensions: &'static [&'static str],
-    read: fn(&Path, Negative) -> Result<Imported, MeasuredError>,
-}
-
-const FORMATS: &[Format] = &[
-    Format {
-        name: "refractiveindex.info YAML",
-        extensions: &["yml", "yaml"],
-        read: |path, _| refractive_index::import(path),
-    },
-    Format { name: "CSV table", extensions: &["csv"], read: |path, _| import_csv(path) },
-    Format {
-        name: RADIANCE_MAP,
-        extensions: &["hdr"],
-        read: |path, negative| environment(path, negative, RADIANCE_MAP),
-    },
-    Format {
-        name: RAW_HEIGHTS,
-        extensions: &["f32"],
-        read: |path, _| height_map(path, RAW_HEIGHTS),
-    },
-    Format { name: "EXR environment map or height map", extensions: &["exr"], read: import_exr },
-];
-
-const RADIANCE_MAP: &str = "Radiance environment map";
-const RAW_HEIGHTS: &str = "raw height map";
+/// The formats that [`import`] reads with their extensions, in words.
+const KNOWN_FORMATS: &str = "refractiveindex.info YAML (.yml, .yaml); CSV table (.csv); Radiance \
+                             environment map (.hdr); raw height map (.f32); EXR environment map or \
+                             height map (.exr)";
 
 /// Reads a file of an outside format, told by its extension. An `.exr` file with a sidecar of axes
-/// is a height map, else an environment map.
+/// is a height map, else an environment map, of which `negative` says what becomes of negative values.
 ///
 /// # Errors
-/// [`MeasuredError::UnknownFormat`], listing the formats, for another extension; otherwise what
-/// the format's reader finds wrong, with the file and, in text, the line.
-pub fn import(path: &Path) -> Result<Imported, MeasuredError> {
-    import_with(path, Negative::Refused)
-}
-
-/// As [`import`], with a say in what becomes of negative values of an environment map.
-///
-/// # Errors
-/// As [`import`].
-pub fn import_with(path: &Path, negative: Negative) -> Result<Imported, MeasuredError> {
-    let extension = extension(path);
-    match FORMATS.iter().find(|f| f.extensions.contains(&extension.as_str())) {
-        Some(format) => (format.read)(path, negative),
-        None => Err(MeasuredError::unknown_format(path, known_formats())),
-    }
+/// [`MeasuredError::Unusable`], listing the formats, for another extension; otherwise what the
+/// format's reader finds wrong, with the file and, in text, the line.
+pub fn import(path: &Path, negative: Negative) -> Result<Imported, MeasuredError> {
+    let height_map = || HeightMap::read(path).map(Content::HeightMap);
+    let environment = || Environment::read_with(path, negative).map(Content::Environment);
+    let (format, content) = match extension(path).as_str() {
+        "yml" | "yaml" => return refractive_index::import(path),
+        "csv" => ("CSV table", Content::Table(Table::read_csv(path)?)),
+        "hdr" => ("Radiance environment map", environment()?),
+        "f32" => ("raw height map", height_map()?),
+        "exr" if sidecar_path(path).exists() => ("EXR height map", height_map()?),
+        "exr" => ("EXR environment map", environment()?),
+        _ => return Err(unknown_format(path, KNOWN_FORMATS)),
+    };
+    let origin = match &content {
+        Content::Table(table) => &table.origin,
+        Content::HeightMap(map) => &map.origin,
+        Content::Environment(map) => &map.origin,
+    };
+    let notes = vec![format!("from {origin}")];
+    Ok(Imported { content, format, notes })
 }
 
 /// What the name of a file ends in, in lower case.
@@ -130,41 +110,8 @@ pub(super) fn extension(path: &Path) -> String {
     path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase()
 }
 
-/// The formats that [`import`] reads with their extensions, in words.
-pub fn known_formats() -> String {
-    FORMATS
-        .iter()
-        .map(|f| format!("{} (.{})", f.name, f.extensions.join(", .")))
-        .collect::<Vec<_>>()
-        .join("; ")
-}
-
-fn import_csv(path: &Path) -> Result<Imported, MeasuredError> {
-    let table = Table::read_csv(path)?;
-    let notes = vec![format!("from {}", table.origin)];
-    Ok(Imported { content: Content::Table(table), format: "CSV table", notes })
-}
-
-fn import_exr(path: &Path, negative: Negative) -> Result<Imported, MeasuredError> {
-    if sidecar_path(path).exists() {
-        height_map(path, "EXR height map")
-    } else {
-        environment(path, negative, "EXR environment map")
-    }
-}
-
-fn environment(
-    path: &Path,
-    negative: Negative,
-    format: &'static str,
-) -> Result<Imported, MeasuredError> {
-    let map = Environment::read_with(path, negative)?;
-    let notes = vec![format!("from {}", map.origin)];
-    Ok(Imported { content: Content::Environment(map), format, notes })
-}
-
-fn height_map(path: &Path, format: &'static str) -> Result<Imported, MeasuredError> {
-    let map = HeightMap::read(path)?;
-    let notes = vec![format!("from {}", map.origin)];
-    Ok(Imported { content: Content::HeightMap(map), format, notes })
+/// A file whose extension says none of the `known` formats.
+pub(super) fn unknown_format(path: &Path, known: &str) -> MeasuredError {
+    let reason = format!("unknown format; known formats: {known}");
+    MeasuredError::unusable(path.display().to_string(), reason)
 }

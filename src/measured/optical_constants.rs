@@ -3,8 +3,10 @@
 
 use std::path::Path;
 
+use super::MeasuredError;
+use super::error::require;
 use super::spectra::increasing;
-use super::{MeasuredError, linear};
+use super::tabulation::{ends, linear};
 use crate::table::{Table, TableError};
 
 /// n and k of one material as one source measured them.
@@ -29,10 +31,9 @@ impl OpticalConstants {
     /// that do not increase, n ≤ 0 or k < 0.
     pub fn read(path: &Path) -> Result<Self, MeasuredError> {
         let origin = path.display().to_string();
-        let implausible = |reason: String| MeasuredError::implausible(&origin, reason);
         let stem = path.file_stem().and_then(|s| s.to_str()).unwrap_or_default();
         let Some((material, source)) = stem.split_once('.') else {
-            return Err(implausible("expected a name <Material>.<Source>.csv".into()));
+            return Err(MeasuredError::unusable(origin, "expected a name <Material>.<Source>.csv"));
         };
         let table = Table::read_csv(path)?;
         let wavelength_nm = increasing(&origin, &table)?;
@@ -41,11 +42,11 @@ impl OpticalConstants {
             Some(_) => table.values_in("k", "1")?,
             None => vec![0.0; n.len()],
         };
-        if let Some(got) = n.iter().find(|n| **n <= 0.0) {
-            return Err(implausible(format!("expected n > 0, got {got}")));
+        for n in &n {
+            require(*n > 0.0, &origin, || format!("expected n > 0, got {n}"))?;
         }
-        if let Some(got) = k.iter().find(|k| **k < 0.0) {
-            return Err(implausible(format!("expected k ≥ 0, got {got}")));
+        for k in &k {
+            require(*k >= 0.0, &origin, || format!("expected k ≥ 0, got {k}"))?;
         }
         let (material, source) = (material.to_owned(), source.to_owned());
         Ok(Self { material, source, table, wavelength_nm, n, k })
@@ -63,28 +64,21 @@ impl OpticalConstants {
 
     /// First and last measured wavelength, nm.
     pub fn range_nm(&self) -> (f64, f64) {
-        let end = |w: Option<&f64>| w.copied().unwrap_or(f64::NAN);
-        (end(self.wavelength_nm.first()), end(self.wavelength_nm.last()))
+        ends(&self.wavelength_nm)
     }
 
     /// (n, k) at a wavelength in nm, linear between the measured wavelengths; k is 0 where the
     /// source gives none.
     ///
     /// # Errors
-    /// [`MeasuredError::OutOfRange`] outside [`OpticalConstants::range_nm`].
+    /// [`MeasuredError::Unusable`] outside [`OpticalConstants::range_nm`].
     pub fn at(&self, wavelength_nm: f64) -> Result<(f64, f64), MeasuredError> {
         let value = |values| linear(&self.wavelength_nm, values, wavelength_nm);
         match (value(&self.n), value(&self.k)) {
             (Some(n), Some(k)) => Ok((n, k)),
             _ => {
-                let (from_nm, to_nm) = self.range_nm();
-                Err(MeasuredError::OutOfRange {
-                    origin: self.name(),
-                    quantity: "n, k",
-                    from_nm,
-                    to_nm,
-                    got_nm: wavelength_nm,
-                })
+                let range = self.range_nm();
+                Err(MeasuredError::out_of_range(&self.name(), "n, k", range, wavelength_nm))
             }
         }
     }

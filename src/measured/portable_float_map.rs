@@ -8,12 +8,12 @@
 //! white space or `#` for the header, and turns over rows rightly only where their number is even.
 
 use super::MeasuredError;
-use super::pattern_file::Picture;
+use super::pattern::Picture;
 
 /// Reads a map; `origin` names it in messages.
 pub(super) fn decode(origin: &str, bytes: &[u8]) -> Result<Picture, MeasuredError> {
     let fault =
-        |reason: String| MeasuredError::Decoder { origin: origin.into(), format: "PFM", reason };
+        |reason: String| MeasuredError::unusable(origin, format!("malformed PFM: {reason}"));
     let mut rest = bytes;
     let mut word = |what: &str| -> Result<String, MeasuredError> {
         // No word of a header is longer than this.
@@ -44,24 +44,14 @@ pub(super) fn decode(origin: &str, bytes: &[u8]) -> Result<Picture, MeasuredErro
     let pixels = (width as u64).saturating_mul(height as u64);
     let expected = pixels.saturating_mul(4 * names.len() as u64);
     if rest.len() as u64 != expected {
-        return Err(MeasuredError::Length {
-            origin: origin.into(),
-            what: "bytes of pixels",
-            got: rest.len() as u64,
-            expected,
-            width,
-            height,
-            hint: format!(" pixels of {} f32", names.len()),
-        });
+        let (got, numbers) = (rest.len(), names.len());
+        let of = format!("{width} × {height} pixels of {numbers} f32");
+        let reason = format!("{got} bytes of pixels, expected {expected} for {of}");
+        return Err(MeasuredError::unusable(origin, reason));
     }
     let number = if scale < 0.0 { f32::from_le_bytes } else { f32::from_be_bytes };
     let (numbers, _) = rest.as_chunks();
     let values: Vec<f64> = numbers.iter().map(|bytes| f64::from(number(*bytes))).collect();
-    let rows_from_top = || values.chunks(width * names.len()).rev();
-    let channel = |(at, name): (usize, &&str)| {
-        let row =
-            |row: &[f64]| row.iter().skip(at).step_by(names.len()).copied().collect::<Vec<_>>();
-        ((*name).to_owned(), rows_from_top().flat_map(row).collect())
-    };
-    Ok(Picture { width, height, channels: names.iter().enumerate().map(channel).collect() })
+    let from_top = values.chunks(width * names.len()).rev().flatten().copied();
+    Ok(Picture::interleaved([width, height], names, from_top))
 }

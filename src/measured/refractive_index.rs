@@ -8,12 +8,20 @@ use std::path::Path;
 use serde::Deserialize;
 use serde_saphyr::Spanned;
 
-use super::tabulation::{self, Tabulation};
-use super::{Content, Dispersion, Formula, Imported, MeasuredError};
+use super::error::require;
+use super::tabulation::{self, Tabulation, ends};
+use super::{Content, Dispersion, Imported, MeasuredError};
 use crate::table::{Column, Table, store};
 
 /// Spacing of the wavelengths of a record that is a formula, nm; see [`RefractiveIndex::to_table`].
-pub const FORMULA_STEP_NM: f64 = 5.0;
+const FORMULA_STEP_NM: f64 = 5.0;
+
+/// What a record may hold, in the order in which it is kept.
+const QUANTITIES: [&str; 2] = ["n", "k"];
+
+/// Places of n and of k among the [`QUANTITIES`].
+const N: usize = 0;
+const K: usize = 1;
 
 /// Most wavelengths that a formula is written out at.
 const MOST_FORMULA_ROWS: f64 = 4096.0;
@@ -23,12 +31,11 @@ const MOST_FORMULA_ROWS: f64 = 4096.0;
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefractiveIndex {
     origin: String,
-    /// Publications, as the record gives them (may hold HTML).
-    pub references: String,
-    /// Remarks of the record on sample and temperature (may hold HTML).
-    pub comments: String,
-    n: Option<Curve>,
-    k: Option<Curve>,
+    /// Publications, and remarks on sample and temperature, as the record gives them (may hold HTML).
+    references: String,
+    comments: String,
+    /// By quantity.
+    curves: [Option<Curve>; 2],
     merged_rows: usize,
     formula_unused: bool,
 }
@@ -41,9 +48,9 @@ enum Curve {
 
 #[derive(Deserialize)]
 struct Record {
-    #[serde(rename = "REFERENCES", default)]
+    #[serde(rename = "REFERENCES")]
     references: Option<String>,
-    #[serde(rename = "COMMENTS", default)]
+    #[serde(rename = "COMMENTS")]
     comments: Option<String>,
     #[serde(rename = "DATA")]
     data: Vec<Entry>,
@@ -89,17 +96,16 @@ impl RefractiveIndex {
         })?;
         let mut parsed = Self {
             origin: origin.into(),
-            references: record.references.unwrap_or_default().trim().into(),
-            comments: record.comments.unwrap_or_default().trim().into(),
-            n: None,
-            k: None,
+            references: record.references.unwrap_or_default(),
+            comments: record.comments.unwrap_or_default(),
+            curves: [None, None],
             merged_rows: 0,
             formula_unused: false,
         };
         for entry in &record.data {
             parsed.add(entry)?;
         }
-        if parsed.n.is_none() && parsed.k.is_none() {
+        if parsed.curves.iter().all(Option::is_none) {
             let reason = "DATA holds neither n nor k".into();
             return Err(MeasuredError::Malformed { origin: origin.into(), line: 1, reason });
         }
@@ -109,27 +115,22 @@ impl RefractiveIndex {
     fn add(&mut self, entry: &Entry) -> Result<(), MeasuredError> {
         let kind = entry.kind.value.as_str();
         match kind.split_whitespace().collect::<Vec<_>>().as_slice() {
-            ["tabulated", "n"] => self.add_tabulated(entry, &[Quantity::N]),
-            ["tabulated", "k"] => self.add_tabulated(entry, &[Quantity::K]),
-            ["tabulated", "nk"] => self.add_tabulated(entry, &[Quantity::N, Quantity::K]),
-            ["formula", number] => match number.parse().ok().and_then(Formula::numbered) {
-                Some(formula) => self.add_formula(entry, formula),
-                None => Err(self.unknown_kind(entry)),
-            },
-            _ => Err(self.unknown_kind(entry)),
+            ["tabulated", "n"] => return self.add_tabulated(entry, &[N]),
+            ["tabulated", "k"] => return self.add_tabulated(entry, &[K]),
+            ["tabulated", "nk"] => return self.add_tabulated(entry, &[N, K]),
+            ["formula", number] => {
+                if let Some(number) = number.parse().ok().filter(|number| (1..=9).contains(number))
+                {
+                    return self.add_formula(entry, number);
+                }
+            }
+            _ => {}
         }
-    }
-
-    fn unknown_kind(&self, entry: &Entry) -> MeasuredError {
         let known = "tabulated n, tabulated k, tabulated nk, formula 1 to formula 9";
-        self.fault(&entry.kind, format!("expected {known}, got type {:?}", entry.kind.value))
+        Err(self.fault(&entry.kind, format!("expected {known}, got type {kind:?}")))
     }
 
-    fn add_tabulated(
-        &mut self,
-        entry: &Entry,
-        quantities: &[Quantity],
-    ) -> Result<(), MeasuredError> {
+    fn add_tabulated(&mut self, entry: &Entry, quantities: &[usize]) -> Result<(), MeasuredError> {
         let rows = self.field(entry, entry.data.as_ref(), "data")?;
         let line = rows.referenced.line();
         let (tabulations, merged) =
@@ -141,12 +142,12 @@ impl RefractiveIndex {
         Ok(())
     }
 
-    fn add_formula(&mut self, entry: &Entry, formula: Formula) -> Result<(), MeasuredError> {
+    fn add_formula(&mut self, entry: &Entry, number: u32) -> Result<(), MeasuredError> {
         let text = self.field(entry, entry.coefficients.as_ref(), "coefficients")?;
         let coefficients: Result<Vec<f64>, String> =
             text.value.split_whitespace().map(tabulation::number).collect();
         let dispersion = coefficients
-            .and_then(|list| Dispersion::new(formula, list))
+            .and_then(|list| Dispersion::new(number, list))
             .map_err(|reason| self.fault(text, reason))?;
 
         let range = self.field(entry, entry.wavelength_range.as_ref(), "wavelength_range")?;
@@ -154,7 +155,7 @@ impl RefractiveIndex {
             range.value.split_whitespace().map(tabulation::micrometres_as_nm).collect();
         match ends.map_err(|reason| self.fault(range, reason))?.as_slice() {
             &[from_nm, to_nm] if from_nm < to_nm => {
-                self.set(entry, Quantity::N, Curve::Formula { dispersion, from_nm, to_nm })
+                self.set(entry, N, Curve::Formula { dispersion, from_nm, to_nm })
             }
             _ => Err(self.fault(
                 range,
@@ -174,16 +175,8 @@ impl RefractiveIndex {
         })
     }
 
-    fn set(
-        &mut self,
-        entry: &Entry,
-        quantity: Quantity,
-        curve: Curve,
-    ) -> Result<(), MeasuredError> {
-        let slot = match quantity {
-            Quantity::N => &mut self.n,
-            Quantity::K => &mut self.k,
-        };
+    fn set(&mut self, entry: &Entry, quantity: usize, curve: Curve) -> Result<(), MeasuredError> {
+        let slot = &mut self.curves[quantity];
         match (slot.as_ref(), &curve) {
             (None, _) => *slot = Some(curve),
             (Some(Curve::Formula { .. }), Curve::Tabulated(_)) => {
@@ -192,7 +185,7 @@ impl RefractiveIndex {
             }
             (Some(Curve::Tabulated(_)), Curve::Formula { .. }) => self.formula_unused = true,
             _ => {
-                let reason = format!("{} is given a second time", quantity.name());
+                let reason = format!("{} is given a second time", QUANTITIES[quantity]);
                 return Err(self.fault(&entry.kind, reason));
             }
         }
@@ -207,18 +200,17 @@ impl RefractiveIndex {
     /// First and last wavelength, nm, at which everything that the record holds is known.
     ///
     /// # Errors
-    /// [`MeasuredError::Implausible`] if n and k have no wavelength in common.
+    /// [`MeasuredError::Unusable`] if n and k have no wavelength in common.
     pub fn range_nm(&self) -> Result<(f64, f64), MeasuredError> {
         let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
-        for curve in self.n.iter().chain(&self.k) {
+        for curve in self.curves.iter().flatten() {
             let (first, last) = curve.range_nm();
             from = from.max(first);
             to = to.min(last);
         }
-        if from > to {
-            let reason = format!("n and k have no wavelength in common ({from} nm, {to} nm)");
-            return Err(MeasuredError::implausible(&self.origin, reason));
-        }
+        require(from <= to, &self.origin, || {
+            format!("n and k have no wavelength in common ({from} nm, {to} nm)")
+        })?;
         Ok((from, to))
     }
 
@@ -226,10 +218,10 @@ impl RefractiveIndex {
     /// measured wavelengths.
     ///
     /// # Errors
-    /// [`MeasuredError::Missing`] without n, [`MeasuredError::OutOfRange`] outside the range,
-    /// [`MeasuredError::Undefined`] where a formula has no finite real value.
+    /// [`MeasuredError::Unusable`] without n, outside the range, and where a formula has no finite
+    /// real value.
     pub fn n(&self, wavelength_nm: f64) -> Result<f64, MeasuredError> {
-        self.value(self.n.as_ref(), Quantity::N, wavelength_nm)
+        self.value(N, wavelength_nm)
     }
 
     /// Extinction coefficient at a wavelength in nm, linear between the measured wavelengths.
@@ -237,35 +229,34 @@ impl RefractiveIndex {
     /// # Errors
     /// As [`RefractiveIndex::n`].
     pub fn k(&self, wavelength_nm: f64) -> Result<f64, MeasuredError> {
-        self.value(self.k.as_ref(), Quantity::K, wavelength_nm)
+        self.value(K, wavelength_nm)
     }
 
-    fn value(
-        &self,
-        curve: Option<&Curve>,
-        quantity: Quantity,
-        at_nm: f64,
-    ) -> Result<f64, MeasuredError> {
-        let (origin, quantity) = (self.origin.clone(), quantity.name());
-        let Some(curve) = curve else { return Err(MeasuredError::Missing { origin, quantity }) };
-        let (from_nm, to_nm) = curve.range_nm();
-        if !(from_nm..=to_nm).contains(&at_nm) {
-            let got_nm = at_nm;
-            return Err(MeasuredError::OutOfRange { origin, quantity, from_nm, to_nm, got_nm });
+    fn value(&self, quantity: usize, at_nm: f64) -> Result<f64, MeasuredError> {
+        let name = QUANTITIES[quantity];
+        let fault = |reason: String| MeasuredError::unusable(&self.origin, reason);
+        let Some(curve) = &self.curves[quantity] else {
+            return Err(fault(format!("the record has no {name}")));
+        };
+        let range_nm = curve.range_nm();
+        if !(range_nm.0..=range_nm.1).contains(&at_nm) {
+            return Err(MeasuredError::out_of_range(&self.origin, name, range_nm, at_nm));
         }
         match curve {
             Curve::Tabulated(tabulation) => tabulation.at(at_nm),
             Curve::Formula { dispersion, .. } => Some(dispersion.index(at_nm / 1000.0)),
         }
         .filter(|value| value.is_finite())
-        .ok_or(MeasuredError::Undefined { origin, at_nm })
+        .ok_or_else(|| {
+            fault(format!("the dispersion formula has no finite real value at {at_nm} nm"))
+        })
     }
 
     /// The wavelengths of [`RefractiveIndex::to_table`], nm, and how they were chosen, in words.
     fn wavelengths_nm(&self) -> Result<(Vec<f64>, String), MeasuredError> {
         let (from, to) = self.range_nm()?;
         let mut measured = Vec::new();
-        for curve in self.n.iter().chain(&self.k) {
+        for curve in self.curves.iter().flatten() {
             match curve {
                 Curve::Tabulated(t) => measured.extend_from_slice(&t.wavelength_nm),
                 Curve::Formula { .. } => return Ok(regular_wavelengths(from, to)),
@@ -289,11 +280,10 @@ impl RefractiveIndex {
     pub fn to_table(&self) -> Result<Table, MeasuredError> {
         let (wavelengths, _) = self.wavelengths_nm()?;
         let mut columns = Vec::new();
-        for (curve, quantity) in [(&self.n, Quantity::N), (&self.k, Quantity::K)] {
-            let Some(curve) = curve else { continue };
+        for quantity in [N, K].into_iter().filter(|quantity| self.curves[*quantity].is_some()) {
             let values: Result<Vec<f64>, _> =
-                wavelengths.iter().map(|w| self.value(Some(curve), quantity, *w)).collect();
-            columns.push(Column::new(quantity.name(), "1", values?));
+                wavelengths.iter().map(|w| self.value(quantity, *w)).collect();
+            columns.push(Column::new(QUANTITIES[quantity], "1", values?));
         }
         columns.insert(0, Column::new("wavelength", "nm", wavelengths));
         Ok(Table { columns, origin: self.origin.clone() })
@@ -323,26 +313,8 @@ impl RefractiveIndex {
 impl Curve {
     fn range_nm(&self) -> (f64, f64) {
         match self {
-            Self::Tabulated(t) => (
-                t.wavelength_nm.first().copied().unwrap_or(f64::NAN),
-                t.wavelength_nm.last().copied().unwrap_or(f64::NAN),
-            ),
+            Self::Tabulated(t) => ends(&t.wavelength_nm),
             Self::Formula { from_nm, to_nm, .. } => (*from_nm, *to_nm),
-        }
-    }
-}
-
-#[derive(Clone, Copy)]
-enum Quantity {
-    N,
-    K,
-}
-
-impl Quantity {
-    fn name(self) -> &'static str {
-        match self {
-            Self::N => "n",
-            Self::K => "k",
         }
     }
 }

@@ -7,7 +7,9 @@ use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{MeasuredError, linear};
+use super::MeasuredError;
+use super::error::require;
+use super::tabulation::linear;
 use crate::table::Table;
 
 /// Chromaticities (x, y) of the sRGB primaries, IEC 61966-2-1:1999.
@@ -170,24 +172,25 @@ impl Spectra {
     /// (0.3127, 0.3290) of IEC 61966-2-1, so that the perfect diffuser is exactly white.
     ///
     /// # Errors
-    /// [`MeasuredError::Implausible`] if the wavelengths do not increase or are not finite, or if
+    /// [`MeasuredError::Unusable`] if the wavelengths do not increase or are not finite, or if
     /// more than [`MOST_OUTSIDE`] of X, Y or Z lies outside them.
     pub fn linear_srgb_weights(
         &self,
         wavelengths_nm: &[f64],
     ) -> Result<SrgbWeights, MeasuredError> {
-        let implausible = |reason: String| MeasuredError::implausible("sRGB weights", reason);
+        const OF: &str = "sRGB weights";
         let increasing = wavelengths_nm.windows(2).all(|pair| pair[0] < pair[1]);
         let (Some(first), Some(last)) = (wavelengths_nm.first(), wavelengths_nm.last()) else {
-            return Err(implausible("no wavelengths".into()));
+            return Err(MeasuredError::unusable(OF, "no wavelengths"));
         };
-        if !increasing || !first.is_finite() || !last.is_finite() {
-            return Err(implausible("wavelengths must be finite and increase".into()));
-        }
+        require(increasing && first.is_finite() && last.is_finite(), OF, || {
+            "wavelengths must be finite and increase".into()
+        })?;
         let white = Vector3::from(self.white(&self.d65));
         let total: Vector3<f64> = self.stimuli(&self.d65).map(|(_, xyz)| xyz).sum();
-        let to_srgb = xyz_to_linear_srgb(white)
-            .ok_or_else(|| implausible("the white of the tables has no sRGB matrix".into()))?;
+        let to_srgb = xyz_to_linear_srgb(white).ok_or_else(|| {
+            MeasuredError::unusable(OF, "the white of the tables has no sRGB matrix")
+        })?;
 
         let mut sums = vec![Vector3::zeros(); wavelengths_nm.len()];
         let mut outside = Vector3::zeros();
@@ -202,13 +205,13 @@ impl Spectra {
             }
         }
         let outside = outside.component_div(&total).max();
-        if outside > MOST_OUTSIDE {
-            return Err(implausible(format!(
+        require(outside <= MOST_OUTSIDE, OF, || {
+            format!(
                 "{first} to {last} nm leaves out {:.1} % of the white, at most {:.0} % may be",
                 100.0 * outside,
                 100.0 * MOST_OUTSIDE
-            )));
-        }
+            )
+        })?;
         let mut rgb: Vec<Vector3<f64>> =
             sums.into_iter().map(|xyz| to_srgb * (xyz / total.y)).collect();
         // Takes out what rounding in the matrix leaves of the white, some 1e-15.
@@ -245,11 +248,8 @@ pub(crate) fn hat_shares(nodes: &[f64], x: f64) -> [(usize, f64); 2] {
 /// The column `wavelength` of a table, nm, which must increase.
 pub(super) fn increasing(origin: &str, table: &Table) -> Result<Vec<f64>, MeasuredError> {
     let wavelengths = table.values_in("wavelength", "nm")?;
-    match wavelengths.windows(2).find(|pair| pair[0] >= pair[1]) {
-        Some(pair) => {
-            let reason = format!("wavelengths do not increase: {pair:?} nm");
-            Err(MeasuredError::implausible(origin, reason))
-        }
-        None => Ok(wavelengths),
+    for pair in wavelengths.windows(2) {
+        require(pair[0] < pair[1], origin, || format!("wavelengths do not increase: {pair:?} nm"))?;
     }
+    Ok(wavelengths)
 }

@@ -8,6 +8,7 @@ use crate::form::Form;
 use crate::gpu::{self, Device};
 
 use super::error::RenderError;
+use super::shading::Columns;
 
 /// Points that one task on the CPU takes: a few tasks per thread, within these bounds.
 const TASK_POINTS: RangeInclusive<usize> = 16..=512;
@@ -41,44 +42,32 @@ impl Backend<'_> {
 }
 
 /// Kernels made ready, whose colours add up.
-pub(super) struct Painter<'d> {
-    kernels: Vec<Kernel>,
-    compiled: Option<Vec<gpu::DeviceKernel<'d>>>,
+pub(super) enum Painter<'d> {
+    Device(Vec<gpu::DeviceKernel<'d>>),
+    Lanes(Vec<Kernel>),
 }
 
 impl<'d> Painter<'d> {
     /// Compiles for a device; lanes are compiled with their form.
     pub(super) fn new(kernels: Vec<Kernel>, backend: Backend<'d>) -> Result<Self, RenderError> {
-        let compiled = match backend {
-            Backend::Lanes => None,
-            Backend::Device(device) => Some(
-                kernels
-                    .iter()
-                    .map(|kernel| device.compile(&kernel.form, &kernel.constants))
-                    .collect::<Result<_, _>>()?,
-            ),
-        };
-        Ok(Self { kernels, compiled })
+        let Backend::Device(device) = backend else { return Ok(Self::Lanes(kernels)) };
+        let compile = |kernel: &Kernel| device.compile(&kernel.form, &kernel.constants);
+        Ok(Self::Device(kernels.iter().map(compile).collect::<Result<_, _>>()?))
     }
 
     /// R, G and B at every row of the input columns.
-    pub(super) fn colours(&self, inputs: &[Vec<f32>]) -> Result<Vec<Vec<f32>>, RenderError> {
+    pub(super) fn colours(&self, inputs: &[Vec<f32>]) -> Result<Columns, RenderError> {
         let rows = inputs.first().map_or(0, Vec::len);
         let mut sums = vec![vec![0.0_f32; rows]; 3];
-        let mut add = |values: Vec<Vec<f32>>| {
-            for (sum, column) in sums.iter_mut().zip(values) {
-                sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += value);
-            }
-        };
-        match &self.compiled {
-            Some(compiled) => {
+        match self {
+            Self::Device(compiled) => {
                 for kernel in compiled {
-                    add(kernel.evaluate(inputs)?);
+                    add(&mut sums, kernel.evaluate(inputs)?);
                 }
             }
-            None => {
-                for kernel in &self.kernels {
-                    add(on_lanes(kernel, inputs, rows)?);
+            Self::Lanes(kernels) => {
+                for kernel in kernels {
+                    add(&mut sums, on_lanes(kernel, inputs, rows)?);
                 }
             }
         }
@@ -86,11 +75,14 @@ impl<'d> Painter<'d> {
     }
 }
 
-fn on_lanes(
-    kernel: &Kernel,
-    inputs: &[Vec<f32>],
-    rows: usize,
-) -> Result<Vec<Vec<f32>>, RenderError> {
+/// Adds columns to `sums`, value by value.
+pub(super) fn add(sums: &mut [Vec<f32>], columns: Columns) {
+    for (sum, column) in sums.iter_mut().zip(columns) {
+        sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += value);
+    }
+}
+
+fn on_lanes(kernel: &Kernel, inputs: &[Vec<f32>], rows: usize) -> Result<Columns, RenderError> {
     let task = rows
         .div_ceil(4 * rayon::current_num_threads())
         .clamp(*TASK_POINTS.start(), *TASK_POINTS.end());

@@ -1,9 +1,11 @@
 //! What papers say of pictures, beside what a rendered scene shows. A scene names its claims and the
 //! approximations that they are about; the checks are here.
 
+use super::error::RenderError;
 use super::rendered::{Rendered, RenderedApproximation};
 use super::scene::{Scene, SceneClaim};
-use crate::effect::{Claim, ClaimError, Finding, Found};
+use super::section::Section;
+use crate::effect::{ClaimError, Finding, Found};
 use crate::numeric::measured::Measured;
 
 /// The speed-up that velinov2018 claims.
@@ -13,8 +15,21 @@ const MOST: f64 = 0.5;
 /// A mean FLIP below which two pictures are taken to look alike.
 const ALIKE: f64 = 0.02;
 
-/// Names of the checks, and the keys under which a scene names the approximations that they look at; a
-/// key that may be left out ends in `?`.
+/// What can be checked on a scene.
+#[derive(Debug)]
+pub struct SceneCheck {
+    /// Its name in scenes.
+    pub name: &'static str,
+    /// Keys under which a scene names the approximations that it looks at; one that may be left out
+    /// ends in `?`.
+    keys: &'static [&'static str],
+    /// Where it is printed and what, unless the scene says it.
+    place: &'static str,
+    printed: &'static str,
+    check: fn(&SceneEvidence<'_>) -> Result<Found, ClaimError>,
+}
+
+/// The checks.
 ///
 /// | check | what is checked |
 /// |---|---|
@@ -23,47 +38,40 @@ const ALIKE: f64 = 0.02;
 /// | `frame_rate` | ms a frame beside a printed frame rate |
 /// | `rank` | that the first of `ranks`, of rank 1, looks like the reference |
 /// | `printed_loop` | that `literal`, alg. 1 read literally, errs, beside `passes` of the same rank |
-pub const CHECKS: [(&str, &[&str]); 5] = [
-    ("si_error", &["published_si", "exact_si", "published?"]),
-    ("speed_up", &["published"]),
-    ("frame_rate", &[]),
-    ("rank", &["ranks"]),
-    ("printed_loop", &["literal", "passes?"]),
+pub static CHECKS: [SceneCheck; 5] = [
+    SceneCheck {
+        name: "si_error",
+        keys: &["published_si", "exact_si", "published?"],
+        place: "velinov2018 figs. 8 and 9, §3.4.1",
+        printed: "apart from minor discrepancies due to the approximation of Si, the closed form \
+                  closely matches the ground truth",
+        check: si_error,
+    },
+    SceneCheck {
+        name: "speed_up",
+        keys: &["published"],
+        place: "velinov2018 abstract and §6",
+        printed: "a speed-up of at least three orders of magnitude over Monte Carlo",
+        check: speed_up,
+    },
+    SceneCheck { name: "frame_rate", keys: &[], place: "", printed: "", check: frame_rate },
+    SceneCheck {
+        name: "rank",
+        keys: &["ranks"],
+        place: "toisoul2017 §5.3 and fig. 5",
+        printed: "60, 30, 10 and 5 frames per second at ranks 1, 3, 10 and 21 (§5.3; fig. 5 says 11), \
+                  and the rendering does not improve much, since artefacts are blurred out when \
+                  convolving with the environment",
+        check: rank,
+    },
+    SceneCheck {
+        name: "printed_loop",
+        keys: &["literal", "passes?"],
+        place: "toisoul2017 eq. 10, 11 and alg. 1",
+        printed: "each of the two passes sums over the terms",
+        check: printed_loop,
+    },
 ];
-
-fn claims<'a>() -> [Claim<SceneEvidence<'a>>; 5] {
-    let claim = |name, place, printed, check| Claim { name, place, printed, command: "", check };
-    [
-        claim(
-            "si_error",
-            "velinov2018 figs. 8 and 9, §3.4.1",
-            "apart from minor discrepancies due to the approximation of Si, the closed form closely \
-             matches the ground truth",
-            si_error,
-        ),
-        claim(
-            "speed_up",
-            "velinov2018 abstract and §6",
-            "a speed-up of at least three orders of magnitude over Monte Carlo",
-            speed_up,
-        ),
-        claim("frame_rate", "", "", frame_rate),
-        claim(
-            "rank",
-            "toisoul2017 §5.3 and fig. 5",
-            "60, 30, 10 and 5 frames per second at ranks 1, 3, 10 and 21 (§5.3; fig. 5 says 11), and \
-             the rendering does not improve much, since artefacts are blurred out when convolving with \
-             the environment",
-            rank,
-        ),
-        claim(
-            "printed_loop",
-            "toisoul2017 eq. 10, 11 and alg. 1",
-            "each of the two passes sums over the terms",
-            printed_loop,
-        ),
-    ]
-}
 
 /// A rendered scene, and the claim that is checked on it.
 #[derive(Debug)]
@@ -86,38 +94,42 @@ impl<'a> SceneEvidence<'a> {
     }
 }
 
-/// Why `claim` cannot be checked in a scene with approximations of these names: its key and what is
-/// wrong.
-pub(super) fn fault(claim: &SceneClaim, names: &[&str]) -> Option<(String, String)> {
-    let keys = CHECKS.iter().find(|(name, _)| *name == claim.check).map_or(&[][..], |(_, k)| k);
-    let own = claims().into_iter().find(|own| own.name == claim.check);
-    let says = own.is_some_and(|own| !own.place.is_empty());
-    for (key, given) in [("place", &claim.place), ("printed", &claim.printed)] {
-        if !says && given.is_none() {
-            return Some((key.to_owned(), "is needed here and missing".to_owned()));
-        }
+/// Reads the claims of a scene with approximations of these names.
+pub(super) fn read(top: &mut Section, names: &[&str]) -> Result<Vec<SceneClaim>, RenderError> {
+    top.sections("claim")?.into_iter().map(|section| claim(section, names)).collect()
+}
+
+fn claim(mut section: Section, names: &[&str]) -> Result<SceneClaim, RenderError> {
+    let checks = CHECKS.each_ref().map(|check| (check.name, check));
+    let check = section.named("check", &checks)?.needed()?;
+    let place = section.text("place")?.value;
+    let printed = section.text("printed")?.value;
+    let of = section.names()?;
+    let is_missing = |what: &Option<String>| check.place.is_empty() && what.is_none();
+    let said = [("place", is_missing(&place)), ("printed", is_missing(&printed))];
+    let needed = check.keys.iter().filter(|key| !key.ends_with('?'));
+    let named = needed.map(|key| (*key, of.get(*key).is_none_or(Vec::is_empty)));
+    if let Some((key, _)) = said.into_iter().chain(named).find(|(_, is_missing)| *is_missing) {
+        return Err(section.wrong(key, "is needed here and missing"));
     }
-    for key in keys.iter().filter(|key| !key.ends_with('?')) {
-        if claim.of.get(*key).is_none_or(Vec::is_empty) {
-            return Some(((*key).to_owned(), "is needed here and missing".to_owned()));
-        }
-    }
-    claim.of.iter().find_map(|(key, of)| {
-        if !keys.iter().any(|known| known.trim_end_matches('?') == key) {
-            let known = keys.join(", ");
+    for (key, of) in &of {
+        if !check.keys.iter().any(|known| known.trim_end_matches('?') == key) {
+            let known = check.keys.join(", ");
             let what = format!("unknown field `{key}`; of this check there are: {known}");
-            return Some((key.clone(), what));
+            return Err(section.wrong(key, what));
         }
-        let stray = of.iter().find(|name| !names.contains(&name.as_str()))?;
-        Some((key.clone(), format!("there is no approximation `{stray}`")))
-    })
+        if let Some(stray) = of.iter().find(|name| !names.contains(&name.as_str())) {
+            return Err(section.wrong(key, format!("there is no approximation `{stray}`")));
+        }
+    }
+    Ok(SceneClaim { check: check.name, place, printed, of })
 }
 
 /// The claims that `scene` names, with what was found.
 pub fn findings(scene: &Scene, rendered: &Rendered) -> Vec<Finding> {
     let command = format!("striae render data/scenes/{}.toml", scene.name);
     let of = |claim: &SceneClaim| {
-        let own = claims().into_iter().find(|own| own.name == claim.check)?;
+        let own = CHECKS.iter().find(|own| own.name == claim.check)?;
         let place = claim.place.as_deref().unwrap_or(own.place);
         let printed = claim.printed.as_deref().unwrap_or(own.printed);
         let found = (own.check)(&SceneEvidence { rendered, claim });
@@ -180,12 +192,8 @@ fn short(value: f64) -> String {
 fn speeds(rendered: &Rendered) -> String {
     let part = |a: &RenderedApproximation| {
         let equal = a.equal_error.value()?;
-        Some(format!(
-            "{} {} times at {} samples per pixel",
-            a.name,
-            short(equal.ratio),
-            short(equal.samples)
-        ))
+        let (times, samples) = (short(equal.ratio), short(equal.samples));
+        Some(format!("{} {times} times at {samples} samples per pixel", a.name))
     };
     let parts: Vec<String> = rendered.approximations.iter().filter_map(part).collect();
     if parts.is_empty() {
@@ -271,11 +279,5 @@ mod tests {
         assert!(rank_verdict([0.01, 0.001], [1, 10]).starts_with("holds here"));
         assert!(rank_verdict([0.1, 0.001], [1, 10]).starts_with("does not hold here"));
         assert_eq!(rank_verdict([f64::NAN, 0.0], [1, 10]), "not measured");
-    }
-
-    #[test]
-    fn every_check_has_its_keys() {
-        let names = CHECKS.map(|(name, _)| name);
-        assert_eq!(claims().map(|claim| claim.name), names);
     }
 }

@@ -1,32 +1,23 @@
 //! Why a scene could not be read or rendered.
 
-use crate::effect::DomainError;
 use crate::factor::LowRankError;
 use crate::form::FormError;
 use crate::gpu::GpuError;
 use crate::measured::MeasuredError;
 
 use super::compare::CompareError;
-use super::image::{Image, ImageError};
+use super::image::ImageError;
 
 /// What went wrong; every message names the file, and the key where there is one.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
-    /// The scene could not be read.
-    #[error("{path}: {source}")]
-    Io {
-        /// The file.
-        path: String,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The scene is not TOML, or has a key or a type that a scene has not.
+    /// The scene cannot be read, or is not TOML.
     #[error("{path}: {report}")]
     Toml {
         /// The file.
         path: String,
-        /// Line, column and excerpt.
+        /// What the system said, or line, column and excerpt.
         report: String,
     },
     /// A value in the scene makes no sense.
@@ -39,22 +30,10 @@ pub enum RenderError {
         /// Expected and got.
         what: String,
     },
-    /// A form that cannot shade a light of this kind.
-    #[error("{name}: cannot shade a {kind}: {what}")]
-    Unsuited {
-        /// The fit or form.
-        name: String,
-        /// `sphere` or `polygon`.
-        kind: &'static str,
-        /// Expected and got.
-        what: String,
-    },
-    /// An approximation that the scene has not.
-    #[error("the scene has no approximation {at}")]
-    NoApproximation {
-        /// Its place, from 0.
-        at: usize,
-    },
+    /// A form that does not shade a light, a table that cannot be made, an approximation that is not
+    /// there, a reference that has no value somewhere: its name, expected and got.
+    #[error("{0}")]
+    Unusable(String),
     /// A form does not load or evaluate.
     #[error(transparent)]
     Form(#[from] FormError),
@@ -64,27 +43,16 @@ pub enum RenderError {
     /// A diffraction table that cannot be factorised as asked.
     #[error(transparent)]
     LowRank(#[from] LowRankError),
-    /// A diffraction table that cannot be made or used.
-    #[error("{0}")]
-    Simulation(String),
     /// Images that cannot be compared.
     #[error(transparent)]
-    Compare(Box<CompareError>),
+    Compare(#[from] CompareError),
     /// An image cannot be written.
     #[error(transparent)]
     Image(#[from] ImageError),
     /// The device fails before an image is begun.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// The reference has no value somewhere.
-    #[error("reference at view direction ({}, {}): {source}", view[0], view[1])]
-    Reference {
-        /// Direction cosines of the view in the frame of the scratch.
-        view: [f64; 2],
-        /// Argument, domain and value.
-        source: DomainError,
-    },
-    /// An image was cut short; what is finished is kept in it, the rest is NaN.
+    /// An image was cut short; what is finished was handed over, the rest is NaN.
     #[error("{name}: stopped after {finished} of {total} pixels: {source}")]
     Interrupted {
         /// The image.
@@ -93,15 +61,14 @@ pub enum RenderError {
         finished: usize,
         /// Pixels of the image.
         total: usize,
-        /// The image so far.
-        partial: Box<Image>,
         /// Why.
         source: Box<RenderError>,
     },
 }
 
-impl From<CompareError> for RenderError {
-    fn from(error: CompareError) -> Self {
-        Self::Compare(Box::new(error))
+impl RenderError {
+    /// An approximation at a place, from 0, that the scene has not.
+    pub(super) fn no_approximation(at: usize) -> Self {
+        Self::Unusable(format!("the scene has no approximation {at}"))
     }
 }

@@ -5,44 +5,46 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
 
+use super::error::RenderError;
+use super::scene_file::{ANYWHERE, NOT_NEGATIVE, TURNS_DEG, require};
+use super::section::Section;
 use super::view::Ray;
 
 /// A shape, with the directions along which its micro-geometry runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Geometry {
-    /// The point over which directions of view are mapped: a surface with the normal +z at the origin,
-    /// its first direction at an azimuth.
+pub struct Geometry {
+    /// The shape.
+    pub shape: Shape,
+    /// Its centre.
+    pub centre: [f64; 3],
+    /// Its frame.
+    pub frame: Frame,
+}
+
+/// A shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// The point over which directions of view are mapped: a surface with the normal +z, its first
+    /// direction at an azimuth.
     Point {
         /// Azimuth of the first direction, degrees.
         direction_deg: f64,
     },
-    /// A sphere. Its first direction runs east about the axis.
+    /// A sphere. Its first direction runs east about the axis, which is the second tangent.
     Sphere {
-        /// Centre.
-        centre: [f64; 3],
         /// Radius.
         radius: f64,
-        /// Frame of the object; the axis is its second tangent.
-        frame: Frame,
     },
     /// A rectangle with the same directions everywhere.
     Rectangle {
-        /// Centre.
-        centre: [f64; 3],
         /// Half of the sides along the two tangents.
         half_size: [f64; 2],
-        /// Frame of the object.
-        frame: Frame,
     },
     /// A disc with a hole and circular tracks: the first direction points away from the centre,
     /// across the tracks.
     Disc {
-        /// Centre.
-        centre: [f64; 3],
         /// Radii of the hole and of the rim.
         radii: [f64; 2],
-        /// Frame of the object.
-        frame: Frame,
     },
 }
 
@@ -114,45 +116,70 @@ impl Hit {
 }
 
 impl Geometry {
-    /// The frame of the object.
-    pub fn frame(&self) -> Frame {
-        match self {
-            Self::Point { direction_deg } => {
-                Frame::new([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], direction_deg.to_radians())
-            }
-            Self::Sphere { frame, .. }
-            | Self::Rectangle { frame, .. }
-            | Self::Disc { frame, .. } => *frame,
+    /// A point with its first direction at an azimuth, at the origin.
+    pub fn point(direction_deg: f64) -> Self {
+        let frame = Frame::new([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], direction_deg.to_radians());
+        Self { shape: Shape::Point { direction_deg }, centre: [0.0; 3], frame }
+    }
+
+    /// Reads the section of a scene.
+    pub(super) fn read(mut section: Section) -> Result<Self, RenderError> {
+        const SHAPES: [(&str, &[&str]); 4] = [
+            ("point", &["direction_deg"]),
+            ("rectangle", &["half_size", "centre", "normal", "tangent"]),
+            ("disc", &["radii", "centre", "normal", "tangent"]),
+            ("sphere", &["radius", "centre", "normal", "tangent"]),
+        ];
+        const ALL: [&str; 7] =
+            ["direction_deg", "half_size", "radii", "radius", "centre", "normal", "tangent"];
+        let shapes = SHAPES.map(|(name, own)| (name, (name, own)));
+        let (name, own) = section.named("shape", &shapes)?.needed()?;
+        section.only(own, &ALL, &format!("shape = \"{name}\""))?;
+        if name == "point" {
+            return Ok(Self::point(section.number("direction_deg", TURNS_DEG)?.or(0.0)));
         }
+        let centre = section.numbers("centre", ANYWHERE)?.or([0.0; 3]);
+        let normal = section.numbers("normal", ANYWHERE)?.needed()?;
+        let tangent = section.numbers("tangent", ANYWHERE)?.needed()?;
+        require(normal != [0.0; 3], || section.wrong("normal", "expected a vector that is not 0"))?;
+        let shape = match name {
+            "rectangle" => {
+                Shape::Rectangle { half_size: section.numbers("half_size", [1e-6, 1e9])?.needed()? }
+            }
+            "disc" => {
+                let radii: [f64; 2] = section.numbers("radii", NOT_NEGATIVE)?.needed()?;
+                require(radii[0] < radii[1], || {
+                    section
+                        .wrong("radii", format!("expected the hole before the rim, got {radii:?}"))
+                })?;
+                Shape::Disc { radii }
+            }
+            _ => Shape::Sphere { radius: section.number("radius", [1e-6, 1e9])?.needed()? },
+        };
+        Ok(Self { shape, centre, frame: Frame::new(normal, tangent, 0.0) })
     }
 
     /// The shape turned about its normal.
     #[must_use]
-    pub fn turned(mut self, turn_rad: f64) -> Self {
-        let old = self.frame();
-        let turned = Frame::new(old.normal.into(), old.tangents[0].into(), turn_rad);
-        match &mut self {
-            Self::Point { direction_deg } => *direction_deg += turn_rad.to_degrees(),
-            Self::Sphere { frame, .. }
-            | Self::Rectangle { frame, .. }
-            | Self::Disc { frame, .. } => *frame = turned,
-        }
-        self
+    pub fn turned(self, turn_rad: f64) -> Self {
+        let Frame { normal, tangents: [first, _] } = self.frame;
+        Self { frame: Frame::new(normal.into(), first.into(), turn_rad), ..self }
     }
 
     /// What `ray` meets first, if anything; a point is never met.
     pub fn hit(&self, ray: &Ray) -> Option<Hit> {
-        let (distance, normal, along, uv) = match self {
-            Self::Point { .. } => return None,
-            Self::Sphere { centre, radius, frame } => {
-                let to = ray.origin - Vector3::from(*centre);
+        let frame = &self.frame;
+        let (distance, normal, along, uv) = match self.shape {
+            Shape::Point { .. } => return None,
+            Shape::Sphere { radius } => {
+                let to = ray.origin - Vector3::from(self.centre);
                 let half = to.dot(&ray.direction);
                 let under = half * half - to.norm_squared() + radius * radius;
                 let distance = -half - under.max(0.0).sqrt();
                 if under < 0.0 || distance <= 0.0 {
                     return None;
                 }
-                let normal = (to + ray.direction * distance) / *radius;
+                let normal = (to + ray.direction * distance) / radius;
                 let axis = frame.tangents[1];
                 let east = axis.cross(&normal);
                 let east = if east.norm() < 1e-9 { frame.tangents[0] } else { east };
@@ -160,18 +187,18 @@ impl Geometry {
                 let polar = normal.dot(&axis).clamp(-1.0, 1.0).acos();
                 (distance, normal, east.normalize(), [azimuth / TAU + 0.5, polar / PI])
             }
-            Self::Rectangle { centre, half_size, frame } => {
-                let (distance, [u, v]) = plane_hit(*centre, frame, ray)?;
+            Shape::Rectangle { half_size } => {
+                let (distance, [u, v]) = self.plane_hit(ray)?;
                 if u.abs() > half_size[0] || v.abs() > half_size[1] {
                     return None;
                 }
                 let uv = [0.5 + 0.5 * u / half_size[0], 0.5 + 0.5 * v / half_size[1]];
                 (distance, frame.normal, frame.tangents[0], uv)
             }
-            Self::Disc { centre, radii: [hole, rim], frame } => {
-                let (distance, [u, v]) = plane_hit(*centre, frame, ray)?;
+            Shape::Disc { radii: [hole, rim] } => {
+                let (distance, [u, v]) = self.plane_hit(ray)?;
                 let radius = u.hypot(v);
-                if radius < *hole || radius > *rim || radius == 0.0 {
+                if radius < hole || radius > rim || radius == 0.0 {
                     return None;
                 }
                 let outwards = (frame.tangents[0] * u + frame.tangents[1] * v) / radius;
@@ -196,17 +223,17 @@ impl Geometry {
             reflection: ray.direction - normal * (2.0 * facing),
         })
     }
-}
 
-/// How far along the ray it meets the plane through `centre`, and where along the tangents.
-fn plane_hit(centre: [f64; 3], frame: &Frame, ray: &Ray) -> Option<(f64, [f64; 2])> {
-    let to = Vector3::from(centre) - ray.origin;
-    let distance = to.dot(&frame.normal) / ray.direction.dot(&frame.normal);
-    if !(distance.is_finite() && distance > 0.0) {
-        return None;
+    /// How far along the ray it meets the plane of the shape, and where along the tangents.
+    fn plane_hit(&self, ray: &Ray) -> Option<(f64, [f64; 2])> {
+        let to = Vector3::from(self.centre) - ray.origin;
+        let distance = to.dot(&self.frame.normal) / ray.direction.dot(&self.frame.normal);
+        if !(distance.is_finite() && distance > 0.0) {
+            return None;
+        }
+        let place = ray.direction * distance - to;
+        Some((distance, self.frame.tangents.map(|tangent| place.dot(&tangent))))
     }
-    let place = ray.direction * distance - to;
-    Some((distance, [place.dot(&frame.tangents[0]), place.dot(&frame.tangents[1])]))
 }
 
 #[cfg(test)]
@@ -222,7 +249,7 @@ mod tests {
     fn a_sphere_seen_along_its_normal_mirrors_the_view() {
         let frame = Frame::new([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0.0);
         assert_eq!(frame.tangents[1], Vector3::z());
-        let sphere = Geometry::Sphere { centre: [0.0; 3], radius: 1.0, frame };
+        let sphere = Geometry { shape: Shape::Sphere { radius: 1.0 }, centre: [0.0; 3], frame };
         let hit = sphere.hit(&ray([3.0, 0.0, 0.0], -Vector3::x())).expect("it is met");
         assert!((hit.reflection - Vector3::x()).norm() < 1e-12);
         assert!((hit.frame.tangents[0] - Vector3::y()).norm() < 1e-12);
@@ -233,7 +260,8 @@ mod tests {
     #[test]
     fn tracks_of_a_disc_run_around() {
         let frame = Frame::new([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], 0.0);
-        let disc = Geometry::Disc { centre: [0.0; 3], radii: [0.2, 1.0], frame };
+        let shape = Shape::Disc { radii: [0.2, 1.0] };
+        let disc = Geometry { shape, centre: [0.0; 3], frame };
         let from = |x: f64, y: f64| disc.hit(&ray([x, y, 2.0], -Vector3::z()));
         let hit = from(0.0, 0.6).expect("it is met");
         assert_eq!(hit.frame.tangents[0], Vector3::y());
@@ -245,8 +273,8 @@ mod tests {
 
     #[test]
     fn a_point_has_a_frame_and_is_never_met() {
-        let point = Geometry::Point { direction_deg: 90.0 };
-        assert!((point.frame().tangents[0] - Vector3::y()).norm() < 1e-12);
+        let point = Geometry::point(90.0);
+        assert!((point.frame.tangents[0] - Vector3::y()).norm() < 1e-12);
         assert!(point.hit(&ray([0.0, 0.0, 2.0], -Vector3::z())).is_none());
     }
 
@@ -257,13 +285,13 @@ mod tests {
         let frame = Frame::new([0.2, -0.3, 1.0], [1.0, 0.4, 0.0], 0.3);
         let centre = [0.1, 0.0, -0.2];
         let shapes = [
-            Geometry::Rectangle { centre, half_size: [1.0, 0.8], frame },
-            Geometry::Disc { centre, radii: [0.0, 1.0], frame },
-            Geometry::Sphere { centre, radius: 0.7, frame },
+            Shape::Rectangle { half_size: [1.0, 0.8] },
+            Shape::Disc { radii: [0.0, 1.0] },
+            Shape::Sphere { radius: 0.7 },
         ];
         let camera = Camera { position: [0.3, -2.5, 1.5], target: centre, field_of_view_rad: 0.7 };
         let (coarse, fine) = ([20, 16], [20_000, 16_000]);
-        for shape in shapes {
+        for shape in shapes.map(|shape| Geometry { shape, centre, frame }) {
             for (x, y) in [(10, 8), (11, 7), (8, 9)] {
                 let hit = shape.hit(&camera.ray(coarse, y * 20 + x)).expect("it is met");
                 let at = |dx: usize, dy: usize| {

@@ -1,12 +1,17 @@
 //! Images: named channels of f32 over one grid of pixels, read from and written to EXR and PNG.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::{exr_file, png_file};
-use crate::table::{TableError, store};
+use ::image::{ExtendedColorType, ImageEncoder};
+
+use crate::measured::{decoded_png, srgb};
+use crate::table::{TableError, decode_exr, encode_exr, store};
 
 /// What the name of a channel of standard errors begins with: `stderr.R` belongs to `R`.
 pub const STANDARD_ERROR_PREFIX: &str = "stderr.";
+
+/// How a pixel that is not finite is shown.
+const NON_FINITE: [u8; 3] = [255, 0, 255];
 
 /// An image. Rows from top to bottom, pixels from left to right; a pixel's centre is half a pixel
 /// from its edges.
@@ -36,20 +41,10 @@ pub enum ImageError {
     /// The file could not be read or written, or it is no EXR that this crate reads.
     #[error(transparent)]
     File(#[from] TableError),
-    /// The name of the file ends in none of the known formats.
-    #[error("{}: unknown format of image; expected a name that ends in .exr or .png", path.display())]
-    Format {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The PNG decoder or encoder refused.
-    #[error("{origin}: malformed PNG: {reason}")]
-    Png {
-        /// The file.
-        origin: String,
-        /// What the decoder said.
-        reason: String,
-    },
+    /// The name of the file ends in none of the known formats, the PNG decoder or encoder refused, the
+    /// image is empty, or two channels have one name.
+    #[error("{0}")]
+    Unusable(String),
     /// A channel that is needed is not there.
     #[error("no channel {name:?}; the image has: {known}")]
     MissingChannel {
@@ -57,12 +52,6 @@ pub enum ImageError {
         name: String,
         /// The names that are there.
         known: String,
-    },
-    /// Two channels have one name.
-    #[error("channel {name:?} appears twice")]
-    DuplicateChannel {
-        /// The name.
-        name: String,
     },
     /// A channel does not fill the image.
     #[error("channel {name:?} has {got} values, {width} × {height} pixels need {expected}")]
@@ -77,16 +66,6 @@ pub enum ImageError {
         expected: usize,
         /// Number of values that is there.
         got: usize,
-    },
-    /// An image without pixels or without channels.
-    #[error("an image of {width} × {height} pixels with {channels} channels is empty")]
-    Empty {
-        /// Pixels across.
-        width: usize,
-        /// Pixels down.
-        height: usize,
-        /// Number of channels.
-        channels: usize,
     },
 }
 
@@ -104,15 +83,11 @@ pub struct Clipped {
 impl Image {
     /// An image of linear sRGB colours, row by row.
     pub fn rgb(width: usize, height: usize, colours: &[[f32; 3]]) -> Self {
-        let channel = |(at, name): (usize, &str)| Channel {
+        let channel = |(name, at): (&str, usize)| Channel {
             name: name.to_owned(),
             values: colours.iter().map(|colour| colour[at]).collect(),
         };
-        Self {
-            width,
-            height,
-            channels: ["R", "G", "B"].into_iter().enumerate().map(channel).collect(),
-        }
+        Self { width, height, channels: [("R", 0), ("G", 1), ("B", 2)].map(channel).into() }
     }
 
     /// Reads an image, of the format that the name ends in.
@@ -128,10 +103,12 @@ impl Image {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ImageError> {
         let path = path.as_ref();
         let decode = match Format::of(path)? {
-            Format::Exr => exr_file::decode,
-            Format::Png => png_file::decode,
+            Format::Exr => decode_exr_image,
+            Format::Png => decode_png_image,
         };
-        decode(&path.display().to_string(), &store::read(path)?)
+        let image = decode(&path.display().to_string(), &store::read(path)?)?;
+        image.check()?;
+        Ok(image)
     }
 
     /// Writes all channels as f32 EXR with lossless packing, whole or not at all. The same image
@@ -140,8 +117,11 @@ impl Image {
     /// # Errors
     /// As [`Image::check`]; [`ImageError::File`] if the file cannot be written.
     pub fn write_exr(&self, path: impl AsRef<Path>) -> Result<(), ImageError> {
+        self.check()?;
         let path = path.as_ref();
-        let bytes = exr_file::encode(self, &path.display().to_string())?;
+        let channels: Vec<(&str, &[f32])> =
+            self.channels.iter().map(|c| (c.name.as_str(), c.values.as_slice())).collect();
+        let bytes = encode_exr(&path.display().to_string(), self.width, self.height, &channels)?;
         Ok(store::atomic_write(path, &bytes)?)
     }
 
@@ -152,7 +132,7 @@ impl Image {
     /// # Errors
     /// As [`Image::colours`]; [`ImageError::File`] if the file cannot be written.
     pub fn write_png(&self, path: impl AsRef<Path>, exposure: f64) -> Result<Clipped, ImageError> {
-        let (pixels, clipped) = png_file::shown(&self.colours()?, exposure);
+        let (pixels, clipped) = shown(&self.colours()?, exposure);
         write_pixels(path.as_ref(), self.width, self.height, &pixels)?;
         Ok(clipped)
     }
@@ -162,8 +142,8 @@ impl Image {
     /// # Errors
     /// As [`Image::colours`].
     pub fn png(&self, exposure: f64) -> Result<Vec<u8>, ImageError> {
-        let (pixels, _) = png_file::shown(&self.colours()?, exposure);
-        png_file::encode("picture", self.width, self.height, &pixels)
+        let (pixels, _) = shown(&self.colours()?, exposure);
+        encode_png("picture", self.width, self.height, &pixels)
     }
 
     /// The channel called `name`.
@@ -184,9 +164,8 @@ impl Image {
 
     /// The standard errors of the channel called `name`: `stderr.name`.
     pub fn standard_error(&self, name: &str) -> Option<&Channel> {
-        let of = |channel: &&Channel| {
-            channel.name.strip_prefix(STANDARD_ERROR_PREFIX).is_some_and(|rest| rest == name)
-        };
+        let of =
+            |channel: &&Channel| channel.name.strip_prefix(STANDARD_ERROR_PREFIX) == Some(name);
         self.channels.iter().find(of)
     }
 
@@ -230,16 +209,19 @@ impl Image {
         let (width, height) = (self.width, self.height);
         let expected = width.saturating_mul(height);
         if expected == 0 || self.channels.is_empty() {
-            return Err(ImageError::Empty { width, height, channels: self.channels.len() });
+            return Err(ImageError::Unusable(format!(
+                "an image of {width} × {height} pixels with {} channels is empty",
+                self.channels.len()
+            )));
         }
         for (i, channel) in self.channels.iter().enumerate() {
-            let name = || channel.name.clone();
-            if self.channels.iter().take(i).any(|other| other.name == channel.name) {
-                return Err(ImageError::DuplicateChannel { name: name() });
+            let (name, got) = (&channel.name, channel.values.len());
+            if self.channels.iter().take(i).any(|other| other.name == *name) {
+                return Err(ImageError::Unusable(format!("channel {name:?} appears twice")));
             }
-            let got = channel.values.len();
             if got != expected {
-                return Err(ImageError::Length { name: name(), width, height, expected, got });
+                let name = name.clone();
+                return Err(ImageError::Length { name, width, height, expected, got });
             }
         }
         Ok(())
@@ -249,7 +231,7 @@ impl Image {
 /// Writes sRGB-encoded pixels as an 8-bit PNG, whole or not at all.
 ///
 /// # Errors
-/// [`ImageError::Png`] if their number is not `width · height`; [`ImageError::File`] if the file
+/// [`ImageError::Unusable`] if their number is not `width · height`; [`ImageError::File`] if the file
 /// cannot be written.
 pub fn write_pixels(
     path: &Path,
@@ -257,8 +239,79 @@ pub fn write_pixels(
     height: usize,
     pixels: &[[u8; 3]],
 ) -> Result<(), ImageError> {
-    let bytes = png_file::encode(&path.display().to_string(), width, height, pixels)?;
+    let bytes = encode_png(&path.display().to_string(), width, height, pixels)?;
     Ok(store::atomic_write(path, &bytes)?)
+}
+
+/// The channels of an EXR file, the colours first, in the order in which they are kept.
+fn decode_exr_image(origin: &str, bytes: &[u8]) -> Result<Image, ImageError> {
+    let decoded = decode_exr(origin, bytes)?;
+    let channels = decoded.channels.into_iter();
+    let mut channels: Vec<Channel> =
+        channels.map(|(name, values)| Channel { name, values }).collect();
+    let rank = |channel: &Channel| ["R", "G", "B", "A"].iter().position(|c| *c == channel.name);
+    channels.sort_by_key(|channel| rank(channel).unwrap_or(usize::MAX));
+    Ok(Image { width: decoded.width, height: decoded.height, channels })
+}
+
+/// The colours of a PNG file as linear ones, and its coverage as it is.
+fn decode_png_image(origin: &str, bytes: &[u8]) -> Result<Image, ImageError> {
+    let picture = decoded_png(bytes).map_err(|e| png_fault(origin, &e.to_string()))?;
+    let has_alpha = picture.color().has_alpha();
+    let picture = picture.into_rgba16();
+    let (width, height) = picture.dimensions();
+    let values = |at: usize, decoded: fn(f64) -> f64| -> Vec<f32> {
+        let codes = picture.as_raw().chunks_exact(4).filter_map(|pixel| pixel.get(at));
+        codes.map(|code| decoded(f64::from(*code) / 65535.0) as f32).collect()
+    };
+    let colours = [("R", 0), ("G", 1), ("B", 2)].into_iter();
+    let colour =
+        |(name, at): (&str, _)| Channel { name: name.into(), values: values(at, srgb::decoded) };
+    let mut channels: Vec<Channel> = colours.map(colour).collect();
+    if has_alpha {
+        channels.push(Channel { name: "A".into(), values: values(3, |alpha| alpha) });
+    }
+    Ok(Image { width: width as usize, height: height as usize, channels })
+}
+
+fn png_fault(origin: &str, reason: &str) -> ImageError {
+    ImageError::Unusable(format!("{origin}: malformed PNG: {reason}"))
+}
+
+/// The bytes of an 8-bit file of sRGB-encoded pixels; `origin` names it in messages.
+fn encode_png(
+    origin: &str,
+    width: usize,
+    height: usize,
+    pixels: &[[u8; 3]],
+) -> Result<Vec<u8>, ImageError> {
+    let fault = |reason: String| png_fault(origin, &reason);
+    if pixels.len() != width.saturating_mul(height) {
+        return Err(fault(format!("{} pixels for {width} × {height}", pixels.len())));
+    }
+    let side = |n: usize| u32::try_from(n).map_err(|_| fault(format!("{n} pixels to a side")));
+    let mut bytes = Vec::new();
+    ::image::codecs::png::PngEncoder::new(&mut bytes)
+        .write_image(pixels.as_flattened(), side(width)?, side(height)?, ExtendedColorType::Rgb8)
+        .map_err(|e| fault(e.to_string()))?;
+    Ok(bytes)
+}
+
+/// Linear colours times 2^`exposure` as sRGB bytes, and what had to be clipped.
+fn shown(colours: &[[f32; 3]], exposure: f64) -> (Vec<[u8; 3]>, Clipped) {
+    let gain = exposure.exp2();
+    let mut clipped = Clipped::default();
+    let pixel = |colour: &[f32; 3]| {
+        let exposed = colour.map(|value| f64::from(value) * gain);
+        if exposed.iter().any(|value| !value.is_finite()) {
+            clipped.non_finite += 1;
+            return NON_FINITE;
+        }
+        clipped.below += usize::from(exposed.iter().any(|value| *value < 0.0));
+        clipped.above += usize::from(exposed.iter().any(|value| *value > 1.0));
+        exposed.map(|value| (255.0 * srgb::encoded(value.clamp(0.0, 1.0))).round() as u8)
+    };
+    (colours.iter().map(pixel).collect(), clipped)
 }
 
 /// Formats of image files.
@@ -274,13 +327,16 @@ impl Format {
     /// The format that the name of `path` ends in, in either case.
     ///
     /// # Errors
-    /// [`ImageError::Format`] if it is none of them.
+    /// [`ImageError::Unusable`] if it is none of them.
     pub fn of(path: &Path) -> Result<Self, ImageError> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         match extension.as_deref() {
             Some("exr") => Ok(Self::Exr),
             Some("png") => Ok(Self::Png),
-            _ => Err(ImageError::Format { path: path.into() }),
+            _ => Err(ImageError::Unusable(format!(
+                "{}: unknown format of image; expected a name that ends in .exr or .png",
+                path.display()
+            ))),
         }
     }
 }

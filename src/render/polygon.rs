@@ -233,16 +233,11 @@ fn holds(points: &[Vector2<f64>], x: &Vector2<f64>, tolerance: f64) -> bool {
 
 /// Ear cutting; the triangles' areas must add up to the polygon's.
 fn triangles(points: &[Vector2<f64>]) -> Result<Vec<[usize; 3]>, PolygonFault> {
+    let outline = points.iter().map(|point| [point.x, point.y]);
     let mut corners: Vec<usize> = Vec::new();
-    earcut::Earcut::new().earcut(points.iter().map(|p| [p.x, p.y]), &[], &mut corners);
-    let found: Vec<[usize; 3]> =
-        corners.chunks_exact(3).filter_map(|corner| corner.try_into().ok()).collect();
-    let point = |at: usize| points.get(at).copied().unwrap_or_default();
-    let doubled = |[a, b, c]: [Vector2<f64>; 3]| (b - a).perp(&(c - a));
-    let cut: f64 = found.iter().map(|corners| doubled(corners.map(point)).abs()).sum();
-    let whole: f64 = points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| a.perp(b)).sum();
-    if (cut - whole.abs()).abs() <= 1e-9 * whole.abs() {
-        Ok(found)
+    earcut::Earcut::new().earcut(outline.clone(), &[], &mut corners);
+    if earcut::deviation(outline, &[], &corners) <= 1e-9 {
+        Ok(corners.as_chunks().0.to_vec())
     } else {
         Err(PolygonFault::NotTriangulated)
     }

@@ -291,7 +291,7 @@ pub struct Budget {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SceneClaim {
     /// Name of the check.
-    pub check: String,
+    pub check: &'static str,
     /// Where it is printed, if the check does not say it.
     pub place: Option<String>,
     /// As printed, if the check does not say it.

@@ -5,16 +5,16 @@ use std::path::{Component, Path};
 
 use super::claims;
 use super::error::RenderError;
-use super::geometry::{Frame, Geometry};
-use super::lobe::Facets;
+use super::geometry::{Geometry, Shape};
+use super::lobe;
 use super::polygon::Polygon;
 use super::scene::{
-    Approximation, Budget, Convolution, Diffraction, FILES, Factors, Light, LightShape, MAX_PIXELS,
-    Material, Method, MonteCarlo, ReferenceMethod, SAMPLES_PER_PASS, Scene, SceneClaim, Scratch,
-    Spectrum, Straighten, TableSource,
+    Approximation, Budget, Convolution, Diffraction, FILES, Factors, Light, LightShape, Material,
+    Method, MonteCarlo, ReferenceMethod, SAMPLES_PER_PASS, Scene, Scratch, Spectrum, Straighten,
+    TableSource,
 };
 use super::section::Section;
-use super::view::{Camera, Projection, View};
+use super::view::{Projection, View};
 
 /// Shortest and longest wavelength of a scene, nm: 100 nm to 100 µm.
 const WAVELENGTHS_NM: [f64; 2] = [100.0, 1e5];
@@ -27,13 +27,13 @@ const MAP_WIDTHS: [u64; 2] = [16, 2048];
 /// Largest rank.
 const MOST_TERMS: u64 = 256;
 /// Coordinates.
-const ANYWHERE: [f64; 2] = [-1e9, 1e9];
+pub(super) const ANYWHERE: [f64; 2] = [-1e9, 1e9];
 /// Factors and lengths.
-const POSITIVE: [f64; 2] = [1e-9, 1e9];
+pub(super) const POSITIVE: [f64; 2] = [1e-9, 1e9];
 /// Radiances and limits of errors.
-const NOT_NEGATIVE: [f64; 2] = [0.0, 1e9];
+pub(super) const NOT_NEGATIVE: [f64; 2] = [0.0, 1e9];
 /// Angles, degrees.
-const TURNS_DEG: [f64; 2] = [-360.0, 360.0];
+pub(super) const TURNS_DEG: [f64; 2] = [-360.0, 360.0];
 /// Sections of earlier schemas, and what they have become.
 const OLD: [(&str, &str); 4] = [
     ("scratch", "[material] with kind = \"scratch\", and geometry.direction_deg"),
@@ -46,12 +46,11 @@ impl Scene {
     /// Reads and checks a scene.
     ///
     /// # Errors
-    /// [`RenderError::Io`], [`RenderError::Toml`] with the line, [`RenderError::Value`] with line and
-    /// key.
+    /// [`RenderError::Toml`], [`RenderError::Value`] with line and key.
     pub fn read(path: &Path) -> Result<Self, RenderError> {
         let shown = path.display().to_string();
         let text = std::fs::read_to_string(path)
-            .map_err(|source| RenderError::Io { path: shown.clone(), source })?;
+            .map_err(|e| RenderError::Toml { path: shown.clone(), report: e.to_string() })?;
         let name = path.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy());
         Self::parse(&name, &shown, &text)
     }
@@ -67,11 +66,14 @@ impl Scene {
             return Err(top.wrong(old, format!("[{old}] is now {new}")));
         }
         let description = top.text("description")?.or(String::new());
-        let view = view(top.section("view")?.needed()?)?;
-        let geometry = geometry(top.section("geometry")?.needed()?)?;
+        let view = View::read(top.section("view")?.needed()?)?;
+        let geometry = Geometry::read(top.section("geometry")?.needed()?)?;
         let material = material(&mut top, path)?;
         check_view(&top, &view, &geometry, &material)?;
-        let lights = lights(&mut top, &geometry, &material)?;
+        let lights = top.sections("light")?;
+        require(!lights.is_empty(), || top.wrong("light", "a scene needs at least one [[light]]"))?;
+        let lights = lights.into_iter().map(|section| light(section, &geometry, &material));
+        let lights = lights.collect::<Result<Vec<_>, _>>()?;
         let reference = reference(top.section("reference")?.needed()?, &material)?;
         let monte_carlo = monte_carlo(&mut top, reference)?;
         let approximations = approximations(&mut top, &material, &lights)?;
@@ -79,7 +81,7 @@ impl Scene {
         let scene = Self {
             budget: budgets(&mut top, &names)?,
             choice: top.section("choice")?.value.map(budget).transpose()?,
-            claims: claims(&mut top, &names)?,
+            claims: claims::read(&mut top, &names)?,
             name: name.to_owned(),
             origin: path.to_owned(),
             description,
@@ -102,79 +104,9 @@ impl Scene {
     }
 }
 
-fn view(mut section: Section) -> Result<View, RenderError> {
-    let kinds = [("equirectangular", false), ("camera", true)];
-    let is_camera = section.named("kind", &kinds)?.needed()?;
-    let pixels = [1, MAX_PIXELS as u64];
-    let width = section.count("width", pixels)?.needed()? as usize;
-    let height = section.count("height", pixels)?.needed()? as usize;
-    if width * height > MAX_PIXELS {
-        let what = format!("{width} by {height} pixels are more than {MAX_PIXELS}");
-        return Err(section.wrong("height", what));
-    }
-    let exposure = section.number("exposure", POSITIVE)?.or(1.0);
-    let projection = if is_camera {
-        let degrees = section.number("field_of_view_deg", [1.0, 150.0])?.needed()?;
-        let camera = Camera {
-            position: section.numbers("position", ANYWHERE)?.needed()?,
-            target: section.numbers("target", ANYWHERE)?.needed()?,
-            field_of_view_rad: degrees.to_radians(),
-        };
-        if camera.position == camera.target {
-            return Err(section.wrong("target", "is where the camera is"));
-        }
-        Projection::Camera(camera)
-    } else {
-        Projection::Equirectangular
-    };
-    let kind = if is_camera { "kind = \"camera\"" } else { "kind = \"equirectangular\"" };
-    section.done(&["position", "target", "field_of_view_deg"], kind)?;
-    Ok(View { width, height, exposure, projection })
-}
-
-fn geometry(mut section: Section) -> Result<Geometry, RenderError> {
-    const SHAPES: [&str; 4] = ["point", "rectangle", "disc", "sphere"];
-    const ALL: [&str; 7] =
-        ["direction_deg", "half_size", "radii", "radius", "centre", "normal", "tangent"];
-    let shape = section.named("shape", &SHAPES.map(|name| (name, name)))?.needed()?;
-    let own: &[&str] = match shape {
-        "point" => &["direction_deg"],
-        "rectangle" => &["half_size", "centre", "normal", "tangent"],
-        "disc" => &["radii", "centre", "normal", "tangent"],
-        _ => &["radius", "centre", "normal", "tangent"],
-    };
-    section.only(own, &ALL, &format!("shape = \"{shape}\""))?;
-    let geometry = if shape == "point" {
-        let direction_deg = section.number("direction_deg", TURNS_DEG)?.or(0.0);
-        Geometry::Point { direction_deg }
-    } else {
-        let centre = section.numbers("centre", ANYWHERE)?.or([0.0; 3]);
-        let normal = section.numbers("normal", ANYWHERE)?.needed()?;
-        let tangent = section.numbers("tangent", ANYWHERE)?.needed()?;
-        if normal == [0.0; 3] {
-            return Err(section.wrong("normal", "expected a vector that is not 0"));
-        }
-        let frame = Frame::new(normal, tangent, 0.0);
-        match shape {
-            "rectangle" => {
-                let half_size = section.numbers("half_size", [1e-6, 1e9])?.needed()?;
-                Geometry::Rectangle { centre, half_size, frame }
-            }
-            "disc" => {
-                let radii: [f64; 2] = section.numbers("radii", NOT_NEGATIVE)?.needed()?;
-                if radii[0] >= radii[1] {
-                    let what = format!("expected the hole before the rim, got {radii:?}");
-                    return Err(section.wrong("radii", what));
-                }
-                Geometry::Disc { centre, radii, frame }
-            }
-            _ => {
-                let radius = section.number("radius", [1e-6, 1e9])?.needed()?;
-                Geometry::Sphere { centre, radius, frame }
-            }
-        }
-    };
-    Ok(geometry)
+/// Passes where a value makes sense.
+pub(super) fn require(sense: bool, fault: impl FnOnce() -> RenderError) -> Result<(), RenderError> {
+    if sense { Ok(()) } else { Err(fault()) }
 }
 
 fn material(top: &mut Section, path: &str) -> Result<Material, RenderError> {
@@ -216,9 +148,7 @@ fn spectrum(mut section: Section) -> Result<Spectrum, RenderError> {
     }
     let from = section.number("from_nm", WAVELENGTHS_NM)?.needed()?;
     let to = section.number("to_nm", WAVELENGTHS_NM)?.needed()?;
-    if from >= to {
-        return Err(section.wrong("to_nm", format!("expected more than {from}, got {to}")));
-    }
+    require(from < to, || section.wrong("to_nm", format!("expected more than {from}, got {to}")))?;
     let count = section.count("samples", [2, MAX_WAVELENGTHS])?.needed()?;
     section.done(&["wavelengths_nm"], "kind = \"spectral\"")?;
     let step = (to - from) / (count - 1) as f64;
@@ -227,9 +157,9 @@ fn spectrum(mut section: Section) -> Result<Spectrum, RenderError> {
 
 fn convolution(mut section: Section) -> Result<Convolution, RenderError> {
     let map_width = section.count("map_width", MAP_WIDTHS)?.needed()? as usize;
-    if !map_width.is_multiple_of(2) {
-        return Err(section.wrong("map_width", format!("expected an even number, got {map_width}")));
-    }
+    require(map_width.is_multiple_of(2), || {
+        section.wrong("map_width", format!("expected an even number, got {map_width}"))
+    })?;
     let ways =
         [("lookup", Straighten::Lookup), ("back", Straighten::Back), ("none", Straighten::None)];
     let straighten = section.named("straighten", &ways)?.or(Straighten::Lookup);
@@ -246,36 +176,19 @@ fn check_view(
     material: &Material,
 ) -> Result<(), RenderError> {
     let is_camera = matches!(view.projection, Projection::Camera(_));
-    let is_point = matches!(geometry, Geometry::Point { .. });
-    let (fits, what) = match material {
-        Material::Scratch(..) => ([!is_camera, is_point], ["equirectangular", "point"]),
+    let is_point = matches!(geometry.shape, Shape::Point { .. });
+    let (kind, view, shape) = match material {
+        Material::Scratch(..) => ("scratch", (!is_camera, "equirectangular"), (is_point, "point")),
         Material::Diffraction(..) => {
-            ([is_camera, !is_point], ["camera", "rectangle\", \"disc\" or \"sphere"])
+            let shapes = "rectangle\", \"disc\" or \"sphere";
+            ("diffraction", (is_camera, "camera"), (!is_point, shapes))
         }
     };
-    let kind = match material {
-        Material::Scratch(..) => "scratch",
-        Material::Diffraction(..) => "diffraction",
-    };
-    for ((fits, what), key) in fits.into_iter().zip(what).zip(["view.kind", "geometry.shape"]) {
-        if !fits {
-            let what = format!("material.kind = \"{kind}\" is seen with {key} = \"{what}\"");
-            return Err(top.wrong(key, what));
-        }
+    for ((fits, what), key) in [(view, "view.kind"), (shape, "geometry.shape")] {
+        let seen = || format!("material.kind = \"{kind}\" is seen with {key} = \"{what}\"");
+        require(fits, || top.wrong(key, seen()))?;
     }
     Ok(())
-}
-
-fn lights(
-    top: &mut Section,
-    geometry: &Geometry,
-    material: &Material,
-) -> Result<Vec<Light>, RenderError> {
-    let sections = top.sections("light")?;
-    if sections.is_empty() {
-        return Err(top.wrong("light", "a scene needs at least one [[light]]"));
-    }
-    sections.into_iter().map(|section| light(section, geometry, material)).collect()
 }
 
 fn light(
@@ -285,37 +198,46 @@ fn light(
 ) -> Result<Light, RenderError> {
     const KINDS: [&str; 3] = ["sphere", "polygon", "environment"];
     let kind = section.named("kind", &KINDS.map(|name| (name, name)))?.needed()?;
-    if (kind == "environment") != matches!(material, Material::Diffraction(..)) {
-        let what = match material {
-            Material::Scratch(..) => "a scratch at a point is lit by \"sphere\" and \"polygon\"",
-            Material::Diffraction(..) => "a diffractive surface is lit by \"environment\"",
-        };
-        return Err(section.wrong("kind", format!("{what}, got \"{kind}\"")));
-    }
+    let (suits, what) = match material {
+        Material::Scratch(..) => {
+            (kind != "environment", "a scratch at a point is lit by \"sphere\" and \"polygon\"")
+        }
+        Material::Diffraction(..) => {
+            (kind == "environment", "a diffractive surface is lit by \"environment\"")
+        }
+    };
+    require(suits, || section.wrong("kind", format!("{what}, got \"{kind}\"")))?;
     let spectral = matches!(material, Material::Scratch(_, Spectrum::Spectral(_)));
     let radiance = section.colour("radiance", NOT_NEGATIVE)?.or([1.0; 3]);
-    if spectral && radiance.iter().any(|channel| *channel != radiance[0]) {
+    require(!spectral || radiance == [radiance[0]; 3], || {
         let what = "three radiances need spectrum.kind = \"rgb\"; give one number";
-        return Err(section.wrong("radiance", what));
-    }
+        section.wrong("radiance", what)
+    })?;
     let shape = match kind {
-        "sphere" => sphere(&mut section)?,
+        "sphere" => {
+            let centre: [f64; 3] = section.numbers("centre", ANYWHERE)?.needed()?;
+            let radius = section.number("radius", POSITIVE)?.needed()?;
+            let distance = centre.iter().map(|x| x * x).sum::<f64>().sqrt();
+            require(radius < distance * (1.0 - 1e-6), || {
+                let what = format!("{radius} reaches the scratch, {distance} from the centre");
+                section.wrong("radius", what)
+            })?;
+            LightShape::Sphere { centre, radius }
+        }
         "polygon" => {
             let vertices = section.points("vertices")?.needed()?;
             let polygon = Polygon::new(&vertices)
                 .map_err(|fault| section.wrong("vertices", fault.to_string()))?;
-            if let Geometry::Point { direction_deg } = geometry {
+            if let Shape::Point { direction_deg } = geometry.shape {
                 // What is shaded is rounded: it must be a polygon too.
-                Facets::new(&polygon, *direction_deg, radiance)
+                lobe::turned(&polygon, direction_deg)
                     .map_err(|fault| section.wrong("vertices", format!("in f32, {fault}")))?;
             }
             LightShape::Polygon(polygon)
         }
         _ => {
             let map = section.text("map")?.needed()?;
-            if map.is_empty() {
-                return Err(section.wrong("map", "is empty"));
-            }
+            require(!map.is_empty(), || section.wrong("map", "is empty"))?;
             let turn_rad = section.number("turn_deg", TURNS_DEG)?.or(0.0).to_radians();
             LightShape::Environment { map, turn_rad }
         }
@@ -325,28 +247,15 @@ fn light(
     Ok(Light { shape, radiance })
 }
 
-fn sphere(section: &mut Section) -> Result<LightShape, RenderError> {
-    let centre: [f64; 3] = section.numbers("centre", ANYWHERE)?.needed()?;
-    let radius = section.number("radius", POSITIVE)?.needed()?;
-    let distance = centre.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if radius >= distance * (1.0 - 1e-6) {
-        let what = format!("{radius} reaches the scratch, {distance} from the centre");
-        return Err(section.wrong("radius", what));
-    }
-    Ok(LightShape::Sphere { centre, radius })
-}
-
 fn reference(mut section: Section, material: &Material) -> Result<ReferenceMethod, RenderError> {
-    let sampled = ("monte_carlo", ReferenceMethod::MonteCarlo);
-    let method = match material {
-        Material::Scratch(..) => {
-            section.named("method", &[("quadrature", ReferenceMethod::Quadrature), sampled])?
-        }
+    use ReferenceMethod::{Full, Integral, MonteCarlo, Quadrature};
+    let methods: &[(&str, ReferenceMethod)] = match material {
+        Material::Scratch(..) => &[("quadrature", Quadrature), ("monte_carlo", MonteCarlo)],
         Material::Diffraction(..) => {
-            let full = ("full", ReferenceMethod::Full);
-            section.named("method", &[full, ("integral", ReferenceMethod::Integral), sampled])?
+            &[("full", Full), ("integral", Integral), ("monte_carlo", MonteCarlo)]
         }
     };
+    let method = section.named("method", methods)?;
     section.done(&[], "")?;
     method.needed()
 }
@@ -356,23 +265,22 @@ fn monte_carlo(
     reference: ReferenceMethod,
 ) -> Result<Option<MonteCarlo>, RenderError> {
     let Some(mut section) = top.section("monte_carlo")?.value else {
-        if reference == ReferenceMethod::MonteCarlo {
+        require(reference != ReferenceMethod::MonteCarlo, || {
             let what = "reference.method = \"monte_carlo\" needs a section [monte_carlo]";
-            return Err(top.wrong("monte_carlo", what));
-        }
+            top.wrong("monte_carlo", what)
+        })?;
         return Ok(None);
     };
-    if reference == ReferenceMethod::Full {
+    require(reference != ReferenceMethod::Full, || {
         let what = "samples estimate eq. 3, and reference.method = \"full\" is another quantity, under \
                     n = view = mirror direction: \"integral\" can be held against them";
-        return Err(section.wrong("", what));
-    }
+        section.wrong("", what)
+    })?;
     let pass = u64::from(SAMPLES_PER_PASS);
     let samples = section.count("samples", [2 * pass, MAX_SAMPLES])?.needed()?;
-    if !samples.is_multiple_of(pass) {
-        let what = format!("expected a multiple of {pass}, got {samples}");
-        return Err(section.wrong("samples", what));
-    }
+    require(samples.is_multiple_of(pass), || {
+        section.wrong("samples", format!("expected a multiple of {pass}, got {samples}"))
+    })?;
     let seed = section.count("seed", [0, u64::MAX])?.or(1);
     section.done(&[], "")?;
     Ok(Some(MonteCarlo { samples: samples as u32, seed }))
@@ -387,26 +295,24 @@ fn approximations(
     for mut section in top.sections("approximation")? {
         let name = section.text("name")?.needed()?;
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        let fault = if name.is_empty() || !name.chars().all(plain) {
-            Some(format!("expected letters, digits, _ and -, got \"{name}\""))
-        } else if FILES.contains(&name.as_str()) {
-            Some(format!("\"{name}\" names another file"))
-        } else {
-            let twice = found.iter().any(|other| other.name == name);
-            twice.then(|| format!("\"{name}\" is there twice"))
-        };
-        if let Some(what) = fault {
-            return Err(section.wrong("name", what));
-        }
+        require(!name.is_empty() && name.chars().all(plain), || {
+            section.wrong("name", format!("expected letters, digits, _ and -, got \"{name}\""))
+        })?;
+        require(!FILES.contains(&name.as_str()), || {
+            section.wrong("name", format!("\"{name}\" names another file"))
+        })?;
+        require(found.iter().all(|other| other.name != name), || {
+            section.wrong("name", format!("\"{name}\" is there twice"))
+        })?;
         let method = match material {
             Material::Scratch(..) => forms(section, lights)?,
             Material::Diffraction(..) => convolved(section)?,
         };
         found.push(Approximation { name, method });
     }
-    if found.is_empty() && matches!(material, Material::Diffraction(..)) {
-        return Err(top.wrong("approximation", "a scene needs at least one [[approximation]]"));
-    }
+    let is_empty = found.is_empty() && matches!(material, Material::Diffraction(..));
+    let what = "a scene needs at least one [[approximation]]";
+    require(!is_empty, || top.wrong("approximation", what))?;
     Ok(found)
 }
 
@@ -417,10 +323,10 @@ fn forms(mut section: Section, lights: &[Light]) -> Result<Method, RenderError> 
             let what = format!("expected a name inside the project, got \"{name}\"");
             return Err(section.wrong(kind, what));
         }
-        if is_lit && name.is_none() {
+        require(name.is_some() || !is_lit, || {
             let what = format!("the scene has a {kind}: name the fit or form that shades it");
-            return Err(section.wrong(kind, what));
-        }
+            section.wrong(kind, what)
+        })?;
         Ok(name.filter(|_| is_lit))
     };
     let lit = |of: fn(&LightShape) -> bool| lights.iter().any(|light| of(&light.shape));
@@ -433,9 +339,7 @@ fn forms(mut section: Section, lights: &[Light]) -> Result<Method, RenderError> 
 fn convolved(mut section: Section) -> Result<Method, RenderError> {
     const METHODS: [&str; 5] = ["two_pass", "printed", "sum", "line", "reconstructed"];
     let name = section.named("method", &METHODS.map(|name| (name, name)))?.needed()?;
-    let mut rank = || -> Result<usize, RenderError> {
-        Ok(section.count("rank", [1, MOST_TERMS])?.or(1) as usize)
-    };
+    let mut rank = || Ok::<_, RenderError>(section.count("rank", [1, MOST_TERMS])?.or(1) as usize);
     let method = match name {
         "two_pass" => {
             let rank = rank()?;
@@ -464,9 +368,8 @@ fn budgets(top: &mut Section, names: &[&str]) -> Result<BTreeMap<String, Budget>
     let named = section.by_name()?.into_iter();
     named
         .map(|(name, section)| {
-            if !names.contains(&name.as_str()) {
-                return Err(section.wrong("", "there is no approximation of that name"));
-            }
+            let is_there = names.contains(&name.as_str());
+            require(is_there, || section.wrong("", "there is no approximation of that name"))?;
             Ok((name, budget(section)?))
         })
         .collect()
@@ -477,28 +380,9 @@ fn budget(mut section: Section) -> Result<Budget, RenderError> {
         relative_rms: section.number("relative_rms", NOT_NEGATIVE)?.value,
         flip: section.number("flip", NOT_NEGATIVE)?.value,
     };
-    if budget == Budget::default() && !section.is_left() {
-        return Err(section.wrong("", "expected `relative_rms`, `flip` or both, got neither"));
-    }
+    require(budget != Budget::default() || section.is_left(), || {
+        section.wrong("", "expected `relative_rms`, `flip` or both, got neither")
+    })?;
     section.done(&[], "")?;
     Ok(budget)
-}
-
-fn claims(top: &mut Section, names: &[&str]) -> Result<Vec<SceneClaim>, RenderError> {
-    let sections = top.sections("claim")?.into_iter();
-    sections
-        .map(|mut section| {
-            let names_of_checks = claims::CHECKS.map(|(name, _)| (name, name));
-            let claim = SceneClaim {
-                check: section.named("check", &names_of_checks)?.needed()?.to_owned(),
-                place: section.text("place")?.value,
-                printed: section.text("printed")?.value,
-                of: section.names()?,
-            };
-            match claims::fault(&claim, names) {
-                Some((key, what)) => Err(section.wrong(&key, what)),
-                None => Ok(claim),
-            }
-        })
-        .collect()
 }

@@ -9,16 +9,24 @@ use serde_json::{Map, Value};
 
 use super::backend::Backend;
 use super::error::RenderError;
+use super::geometry::Shape;
 use super::lobe::Lobe;
-use super::scene::Scene;
+use super::scene::{Material, Scene};
 use super::surface::Surface;
 use super::times::TimedPass;
+use super::view::Projection;
 use crate::document::Block;
 use crate::gpu::TimingOptions;
 use crate::project::Project;
 
 /// R, G, B of some pixels.
 pub type Columns = Vec<Vec<f32>>;
+
+/// Colours as columns R, G, B.
+pub(super) fn rgb_columns(colours: &[[f64; 3]]) -> Columns {
+    let channel = |at: usize| colours.iter().map(|rgb| rgb[at] as f32).collect();
+    (0..3).map(channel).collect()
+}
 
 /// Shades pixels of the picture, counted row by row. A pixel does not depend on its neighbours.
 pub type Shader<'a> = Box<dyn Fn(Range<usize>) -> Result<Columns, RenderError> + 'a>;
@@ -73,7 +81,9 @@ pub trait Shading: Debug + Send + Sync {
     fn sampler<'a>(&'a self, seed: u64, backend: Backend<'a>) -> Result<Sampler<'a>, RenderError>;
 
     /// Names of the constants of an approximation that can be moved.
-    fn constants(&self, at: usize) -> Vec<String>;
+    fn constants(&self, _at: usize) -> Vec<String> {
+        Vec::new()
+    }
 
     /// The kernels that one frame of an approximation costs.
     ///
@@ -85,7 +95,9 @@ pub trait Shading: Debug + Send + Sync {
     ///
     /// # Errors
     /// [`RenderError`] if a kernel cannot be made.
-    fn timed_in_full(&self) -> Result<Vec<TimedPass>, RenderError>;
+    fn timed_in_full(&self) -> Result<Vec<TimedPass>, RenderError> {
+        Ok(Vec::new())
+    }
 
     /// The kernels of one pass of Monte Carlo over one frame.
     ///
@@ -100,7 +112,9 @@ pub trait Shading: Debug + Send + Sync {
     ///
     /// # Errors
     /// [`RenderError`] if it cannot be measured.
-    fn details(&self) -> Result<Details, RenderError>;
+    fn details(&self) -> Result<Details, RenderError> {
+        Ok(Details::default())
+    }
 }
 
 /// Loads and makes what the material of `scene` needs.
@@ -109,15 +123,17 @@ pub trait Shading: Debug + Send + Sync {
 /// [`RenderError`]: what does not load or does not suit; [`RenderError::Value`] for view, geometry and
 /// material that are not of one kind of scene.
 pub fn prepare(scene: &Scene, project: &Project) -> Result<Box<dyn Shading>, RenderError> {
-    if let Some(lobe) = Lobe::prepare(scene, project)? {
-        return Ok(Box::new(lobe));
+    match (&scene.material, scene.geometry.shape, scene.view.projection) {
+        (Material::Scratch(scratch, spectrum), Shape::Point { direction_deg }, _) => {
+            Ok(Box::new(Lobe::prepare(scene, (scratch, spectrum), direction_deg, project)?))
+        }
+        (Material::Diffraction(surface, convolution), _, Projection::Camera(camera)) => {
+            Ok(Box::new(Surface::prepare(scene, (surface, *convolution), &camera, project)?))
+        }
+        _ => Err(RenderError::Value {
+            path: scene.origin.clone(),
+            key: "material".into(),
+            what: "nothing shades it with this view and geometry".into(),
+        }),
     }
-    if let Some(surface) = Surface::prepare(scene, project)? {
-        return Ok(Box::new(surface));
-    }
-    Err(RenderError::Value {
-        path: scene.origin.clone(),
-        key: "material".into(),
-        what: "nothing shades it with this view and geometry".into(),
-    })
 }

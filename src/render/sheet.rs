@@ -4,7 +4,7 @@ use super::compare::error_map::ErrorMap;
 use super::error::RenderError;
 use super::image::{Channel, Image};
 use super::rendered::Rendered;
-use super::srgb::decoded;
+use crate::measured::srgb::decoded;
 
 /// Pixels between images.
 const GAP: usize = 4;
@@ -24,7 +24,14 @@ pub fn comparison(rendered: &Rendered, exposure: f64) -> Result<(Image, f64), Re
     let pictures: Vec<&Image> = found.iter().map(|a| &a.picture.image).collect();
     let scale = found.iter().map(|a| a.error.covering(BEYOND)).fold(0.0, f64::max);
     let scale = if scale > 0.0 { scale.min(1.0) } else { 1.0 };
-    let errors = error_pictures(&pictures, reference, exposure, scale)?;
+    let colour =
+        |rgb: [u8; 3]| rgb.map(|byte| (decoded(f64::from(byte) / 255.0) / exposure) as f32);
+    let error = |image: &&Image| -> Result<Image, RenderError> {
+        let map = ErrorMap::relative(image, reference, Some(scale))?;
+        let colours: Vec<[f32; 3]> = map.pixels().into_iter().map(colour).collect();
+        Ok(Image::rgb(reference.width, reference.height, &colours))
+    };
+    let errors = pictures.iter().map(error).collect::<Result<Vec<_>, _>>()?;
     let pixels = reference.width * reference.height;
     let blank = Image::rgb(reference.width, reference.height, &vec![[0.0; 3]; pixels]);
     let noisy = rendered.monte_carlo.as_ref().map_or(&blank, |of| &of.sampled.image);
@@ -35,28 +42,9 @@ pub fn comparison(rendered: &Rendered, exposure: f64) -> Result<(Image, f64), Re
     Ok((side_by_side(&images, 2), scale))
 }
 
-/// Errors in false colours, all on one scale.
-fn error_pictures(
-    pictures: &[&Image],
-    reference: &Image,
-    exposure: f64,
-    scale: f64,
-) -> Result<Vec<Image>, RenderError> {
-    pictures
-        .iter()
-        .map(|image| {
-            let map = ErrorMap::relative(image, reference, Some(scale))?;
-            let colour =
-                |rgb: [u8; 3]| rgb.map(|byte| (decoded(f64::from(byte) / 255.0) / exposure) as f32);
-            let colours: Vec<[f32; 3]> = map.pixels().into_iter().map(colour).collect();
-            Ok(Image::rgb(reference.width, reference.height, &colours))
-        })
-        .collect()
-}
-
 /// The R, G, B of the images in rows of `across`, from left to right and top to bottom, with white
 /// gaps. Cells are as large as the largest image.
-pub fn side_by_side(images: &[&Image], across: usize) -> Image {
+fn side_by_side(images: &[&Image], across: usize) -> Image {
     let across = across.clamp(1, images.len().max(1));
     let down = images.len().div_ceil(across);
     let cell_width = images.iter().map(|image| image.width).max().unwrap_or(0);

@@ -100,7 +100,6 @@ fn in_tiles(
                     name: name.to_owned(),
                     finished: start,
                     total,
-                    partial: Box::new(image),
                     source: Box::new(source),
                 });
             }

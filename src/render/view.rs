@@ -5,6 +5,11 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
+use super::error::RenderError;
+use super::scene::MAX_PIXELS;
+use super::scene_file::{ANYWHERE, POSITIVE, require};
+use super::section::Section;
+
 /// A picture to take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
@@ -51,6 +56,35 @@ pub struct Ray {
 }
 
 impl View {
+    /// Reads the section of a scene.
+    pub(super) fn read(mut section: Section) -> Result<Self, RenderError> {
+        let kinds = [("equirectangular", false), ("camera", true)];
+        let is_camera = section.named("kind", &kinds)?.needed()?;
+        let pixels = [1, MAX_PIXELS as u64];
+        let width = section.count("width", pixels)?.needed()? as usize;
+        let height = section.count("height", pixels)?.needed()? as usize;
+        require(width * height <= MAX_PIXELS, || {
+            let what = format!("{width} by {height} pixels are more than {MAX_PIXELS}");
+            section.wrong("height", what)
+        })?;
+        let exposure = section.number("exposure", POSITIVE)?.or(1.0);
+        let (kind, projection) = if is_camera {
+            let degrees = section.number("field_of_view_deg", [1.0, 150.0])?.needed()?;
+            let camera = Camera {
+                position: section.numbers("position", ANYWHERE)?.needed()?,
+                target: section.numbers("target", ANYWHERE)?.needed()?,
+                field_of_view_rad: degrees.to_radians(),
+            };
+            let is_seen = camera.position != camera.target;
+            require(is_seen, || section.wrong("target", "is where the camera is"))?;
+            ("kind = \"camera\"", Projection::Camera(camera))
+        } else {
+            ("kind = \"equirectangular\"", Projection::Equirectangular)
+        };
+        section.done(&["position", "target", "field_of_view_deg"], kind)?;
+        Ok(Self { width, height, exposure, projection })
+    }
+
     /// Pixels of a frame.
     pub fn pixels(&self) -> usize {
         self.width * self.height

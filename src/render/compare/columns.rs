@@ -18,7 +18,7 @@ pub struct ColumnDifference {
 /// Compares tables that have the same columns, in any order and in units that convert.
 ///
 /// # Errors
-/// [`CompareError::Columns`] or [`CompareError::Rows`] if they do not match,
+/// [`CompareError::Unusable`] or [`CompareError::Rows`] if they do not match,
 /// [`CompareError::Table`] if a unit does not convert.
 pub fn column_differences(
     test: &Table,
@@ -26,12 +26,14 @@ pub fn column_differences(
 ) -> Result<Vec<ColumnDifference>, CompareError> {
     let missing = |from: &Table, of: &Table| {
         let names = of.names().into_iter().filter(|name| from.column(name).is_none());
-        names.collect::<Vec<_>>().join(", ")
+        Some(names.collect::<Vec<_>>().join(", ")).filter(|names| !names.is_empty())
     };
-    let (missing_in_test, missing_in_reference) =
-        (missing(test, reference), missing(reference, test));
-    if !(missing_in_test.is_empty() && missing_in_reference.is_empty()) {
-        return Err(CompareError::Columns { missing_in_test, missing_in_reference });
+    let (in_test, in_reference) = (missing(test, reference), missing(reference, test));
+    if in_test.is_some() || in_reference.is_some() {
+        let [test, reference] = [in_test, in_reference].map(|of| of.unwrap_or("none".into()));
+        return Err(CompareError::Unusable(format!(
+            "columns differ: not in the test table: {test}; not in the reference: {reference}"
+        )));
     }
     if test.rows() != reference.rows() {
         return Err(CompareError::Rows { test: test.rows(), reference: reference.rows() });

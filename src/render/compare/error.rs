@@ -1,4 +1,3 @@
-use crate::render::image::ImageError;
 use crate::table::TableError;
 
 /// Why two images or tables could not be compared. "Test" is the first, "reference" the second.
@@ -22,14 +21,6 @@ pub enum CompareError {
         /// Names in the reference.
         reference: String,
     },
-    /// Neither image has standard errors of a channel.
-    #[error(
-        "neither image has standard errors of channel {channel:?}; expected \"stderr.{channel}\""
-    )]
-    NoStandardError {
-        /// The channel.
-        channel: String,
-    },
     /// A number that a comparison is asked for with makes no sense.
     #[error("{what}: expected {expected}, got {got}")]
     Setting {
@@ -40,26 +31,9 @@ pub enum CompareError {
         /// What it is.
         got: f64,
     },
-    /// One of the images cannot be used.
-    #[error("the {which}: {source}")]
-    Image {
-        /// `test image` or `reference`.
-        which: &'static str,
-        /// What is wrong with it.
-        source: Box<ImageError>,
-    },
-    /// The tables have different columns.
-    #[error(
-        "columns differ: not in the test table: {}; not in the reference: {}",
-        listed(missing_in_test),
-        listed(missing_in_reference)
-    )]
-    Columns {
-        /// Names that only the reference has.
-        missing_in_test: String,
-        /// Names that only the test table has.
-        missing_in_reference: String,
-    },
+    /// One of the images or tables cannot be used: which, expected and got.
+    #[error("{0}")]
+    Unusable(String),
     /// The tables have different numbers of rows.
     #[error("the test table has {test} rows, the reference has {reference}")]
     Rows {
@@ -71,8 +45,4 @@ pub enum CompareError {
     /// A column cannot be used.
     #[error(transparent)]
     Table(#[from] TableError),
-}
-
-fn listed(names: &str) -> &str {
-    if names.is_empty() { "none" } else { names }
 }

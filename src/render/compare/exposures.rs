@@ -2,6 +2,7 @@
 //! curve to where the median is.
 
 use super::CompareError;
+use super::metrics::{REFERENCE, unusable};
 use crate::render::image::Image;
 
 /// ACES curve as (numerator, denominator), highest power first; the curve's own gain of 0.6
@@ -49,11 +50,9 @@ impl Exposures {
     /// then the median of the lit pixels is taken, and [`Exposures::rule`] says so.
     ///
     /// # Errors
-    /// [`CompareError::Image`] without colours; [`CompareError::Setting`] if no pixel is lit.
+    /// [`CompareError::Unusable`] without colours; [`CompareError::Setting`] if no pixel is lit.
     pub fn of(reference: &Image) -> Result<Self, CompareError> {
-        let colours = reference
-            .colours()
-            .map_err(|source| CompareError::Image { which: "reference", source: source.into() })?;
+        let colours = reference.colours().map_err(|fault| unusable(REFERENCE, &fault))?;
         let luminance = |c: [f32; 3]| {
             let [r, g, b] = c.map(|component| f64::from(component).max(0.0));
             0.2126 * r + 0.7152 * g + 0.0722 * b

@@ -20,7 +20,7 @@ use rayon::prelude::*;
 
 use super::colour_difference::{ColourDifference, opponent};
 use super::convolution::{Plane, feature_kernels, spatial_kernels};
-use super::metrics::matched;
+use super::metrics::{REFERENCE, TEST, matched, unusable};
 use super::{CompareError, Exposures};
 use crate::render::image::Image;
 
@@ -131,29 +131,16 @@ impl Pair {
         matched(test, reference)?;
         let mut negative = 0;
         let mut components = |which, image: &Image| -> Result<Vec<[f64; 3]>, CompareError> {
-            let colours = image
-                .colours()
-                .map_err(|source| CompareError::Image { which, source: source.into() })?;
-            let component = |value: f32| {
+            let mut component = |value: f32| {
                 negative += usize::from(value < 0.0);
-                match value {
-                    value if !value.is_finite() => f64::NAN,
-                    value if value < 0.0 => 0.0,
-                    value => f64::from(value),
-                }
+                if value.is_finite() { f64::from(value.max(0.0)) } else { f64::NAN }
             };
-            let mut component = component;
+            let colours = image.colours().map_err(|fault| unusable(which, &fault))?;
             Ok(colours.into_iter().map(|colour| colour.map(&mut component)).collect())
         };
-        let test_colours = components("test image", test)?;
-        let reference_colours = components("reference", reference)?;
-        Ok(Self {
-            width: test.width,
-            height: test.height,
-            test: test_colours,
-            reference: reference_colours,
-            negative,
-        })
+        let (test_colours, expected) = (components(TEST, test)?, components(REFERENCE, reference)?);
+        let (width, height) = (test.width, test.height);
+        Ok(Self { width, height, test: test_colours, reference: expected, negative })
     }
 
     fn map(&self, values: Vec<f64>) -> FlipMap {
@@ -176,10 +163,8 @@ impl Pair {
             .into_par_iter()
             .map(|at| {
                 let colour = colour_difference.of(test.colour(at), reference.colour(at));
-                let (edge, point) = (
-                    (test.edge.values[at] - reference.edge.values[at]).abs(),
-                    (test.point.values[at] - reference.point.values[at]).abs(),
-                );
+                let edge = (test.edge.values[at] - reference.edge.values[at]).abs();
+                let point = (test.point.values[at] - reference.point.values[at]).abs();
                 let strongest = if edge > point { edge } else { point };
                 let feature =
                     core_math::pow(strongest * std::f64::consts::FRAC_1_SQRT_2, FEATURE_EXPONENT);
@@ -204,13 +189,10 @@ impl Pair {
             height: self.height,
             values: opponent.iter().map(component).collect(),
         };
-        let (luminance, red_green, blue_yellow) =
-            (plane(&|c| c[0]), plane(&|c| c[1]), plane(&|c| c[2]));
-
         let spatial = spatial_kernels(pixels_per_degree);
         let blurred =
             |plane: &Plane, kernel: &[f64]| plane.along_rows(kernel).along_columns(kernel);
-        let [first, second] = &spatial.blue_yellow;
+        let (blue_yellow, [first, second]) = (plane(&|c| c[2]), &spatial.blue_yellow);
         let blue_yellow = blurred(&blue_yellow, first).plus(&blurred(&blue_yellow, second));
 
         let feature = feature_kernels(pixels_per_degree);
@@ -218,8 +200,8 @@ impl Pair {
         let smooth = grey.along_rows(&feature.gaussian);
         let across = |kernel: &[f64]| grey.along_rows(kernel).along_columns(&feature.gaussian);
         Seen {
-            luminance: blurred(&luminance, &spatial.luminance),
-            red_green: blurred(&red_green, &spatial.red_green),
+            luminance: blurred(&plane(&|c| c[0]), &spatial.luminance),
+            red_green: blurred(&plane(&|c| c[1]), &spatial.red_green),
             blue_yellow,
             edge: across(&feature.first).length(&smooth.along_columns(&feature.first)),
             point: across(&feature.second).length(&smooth.along_columns(&feature.second)),

@@ -1,15 +1,13 @@
 //! Plain errors: mean, RMS, relative RMS, maximum and where.
 
 use super::CompareError;
-use crate::render::image::{Channel, Image};
+use crate::render::image::{Channel, Image, ImageError};
 
 /// How a list of numbers differs from a reference, number by number.
 ///
 /// A number that is not finite, on either side, makes all errors NaN: it is counted, never skipped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// Number of pairs.
-    pub count: usize,
     /// Mean of the tested numbers.
     pub mean: f64,
     /// Mean of the reference.
@@ -32,39 +30,31 @@ pub struct Difference {
 impl Difference {
     /// Compares pairs (tested, reference); `None` if there are none.
     pub fn of(pairs: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
-        let (mut count, mut non_finite, mut reference_non_finite) = (0_usize, 0, 0);
-        let (mut sum, mut reference_sum, mut squares, mut reference_squares) = (0.0, 0.0, 0.0, 0.0);
-        let (mut max, mut max_at, mut first_non_finite) = (-1.0_f64, 0, None);
-        for (at, (value, reference)) in pairs.into_iter().enumerate() {
-            count += 1;
-            non_finite += usize::from(!value.is_finite());
-            reference_non_finite += usize::from(!reference.is_finite());
-            if !(value.is_finite() && reference.is_finite()) {
-                first_non_finite = first_non_finite.or(Some(at));
-            }
-            let error = (value - reference).abs();
-            sum += value;
-            reference_sum += reference;
-            squares += error * error;
-            reference_squares += reference * reference;
-            if error > max {
-                (max, max_at) = (error, at);
-            }
+        let pairs: Vec<(f64, f64)> = pairs.into_iter().collect();
+        let n = pairs.len() as f64;
+        if pairs.is_empty() {
+            return None;
         }
-        let n = if count == 0 { return None } else { count as f64 };
-        let rms = (squares / n).sqrt();
+        let sum = |of: fn(f64, f64) -> f64| pairs.iter().map(|(a, b)| of(*a, *b)).sum::<f64>();
+        let count = |of: fn(f64, f64) -> bool| pairs.iter().filter(|(a, b)| of(*a, *b)).count();
+        let squares = sum(|value, reference| (value - reference).powi(2));
+        let reference_squares = sum(|_, reference| reference * reference);
         let relative_rms = if squares == 0.0 { 0.0 } else { (squares / reference_squares).sqrt() };
+        let first_non_finite = pairs.iter().position(|(a, b)| !(a.is_finite() && b.is_finite()));
+        let errors = pairs.iter().map(|(value, reference)| (value - reference).abs()).enumerate();
+        let larger =
+            |most: (usize, f64), next: (usize, f64)| if next.1 > most.1 { next } else { most };
+        let (max_at, max) = errors.fold((0, -1.0), larger);
         let sound = |value: f64| if first_non_finite.is_some() { f64::NAN } else { value };
         Some(Self {
-            count,
-            mean: sum / n,
-            reference_mean: reference_sum / n,
-            rms: sound(rms),
+            mean: sum(|value, _| value) / n,
+            reference_mean: sum(|_, reference| reference) / n,
+            rms: sound((squares / n).sqrt()),
             relative_rms: sound(relative_rms),
             max: sound(max),
             max_at: first_non_finite.unwrap_or(max_at),
-            non_finite,
-            reference_non_finite,
+            non_finite: count(|value, _| !value.is_finite()),
+            reference_non_finite: count(|_, reference| !reference.is_finite()),
         })
     }
 }
@@ -144,11 +134,8 @@ pub fn matched<'a>(
     test: &'a Image,
     reference: &'a Image,
 ) -> Result<Vec<(&'a Channel, &'a Channel)>, CompareError> {
-    let whole = |which, image: &Image| {
-        image.check().map_err(|source| CompareError::Image { which, source: source.into() })
-    };
-    whole("test image", test)?;
-    whole("reference", reference)?;
+    test.check().map_err(|fault| unusable(TEST, &fault))?;
+    reference.check().map_err(|fault| unusable(REFERENCE, &fault))?;
     if (test.width, test.height) != (reference.width, reference.height) {
         return Err(CompareError::Size {
             test: (test.width, test.height),
@@ -169,6 +156,15 @@ pub fn matched<'a>(
         return Err(CompareError::Channels { test: names(test), reference: names(reference) });
     }
     Ok(pairs)
+}
+
+/// Names of the two images in messages.
+pub(super) const TEST: &str = "test image";
+pub(super) const REFERENCE: &str = "reference";
+
+/// That one of the images cannot be used.
+pub(super) fn unusable(which: &str, fault: &ImageError) -> CompareError {
+    CompareError::Unusable(format!("the {which}: {fault}"))
 }
 
 #[cfg(test)]

@@ -93,11 +93,15 @@ impl ZTest {
             let errors =
                 [test.standard_error(&tested.name), reference.standard_error(&tested.name)];
             if errors.iter().all(Option::is_none) {
-                return Err(CompareError::NoStandardError { channel: tested.name.clone() });
+                let channel = &tested.name;
+                return Err(CompareError::Unusable(format!(
+                    "neither image has standard errors of channel {channel:?}; expected \
+                     \"stderr.{channel}\""
+                )));
             }
             let noise = Noise { tested, expected, errors };
             unusable += noise.unusable();
-            cells(&noise, test.width, test.height, pooling, &mut sums);
+            sums.extend(cells(&noise, [test.width, test.height], pooling));
         }
         let worst = sums.iter().max_by(|a, b| a.1.z().abs().total_cmp(&b.1.z().abs()));
         let (place, worst_z) = worst.map(|(cell, sum)| (cell.clone(), sum.z())).unwrap_or_default();
@@ -174,19 +178,13 @@ impl Sum {
 }
 
 /// The cells of a channel: blocks, pooled where few pixels contribute, and the whole.
-fn cells(
-    noise: &Noise,
-    width: usize,
-    height: usize,
-    pooling: Pooling,
-    cells: &mut Vec<(Cell, Sum)>,
-) {
+fn cells(noise: &Noise, [width, height]: [usize; 2], pooling: Pooling) -> Vec<(Cell, Sum)> {
     let channel = &noise.tested.name;
     let cell = |(x, y): (usize, usize), sum: Sum| {
         (Cell { channel: channel.clone(), x, y, pixels: sum.pixels }, sum)
     };
     let enough = |sum: &Sum| sum.contributors() >= pooling.contributors as f64;
-    let before = cells.len();
+    let mut cells = Vec::new();
     let mut whole = Sum::default();
     let mut pool: Option<((usize, usize), Sum)> = None;
     for top in (0..height).step_by(pooling.block) {
@@ -213,12 +211,10 @@ fn cells(
             }
         }
     }
-    if let Some((_, rest)) = pool
-        && cells.len() > before
-        && let Some((place, sum)) = cells.last_mut()
-    {
+    if let (Some((_, rest)), Some((place, sum))) = (pool, cells.last_mut()) {
         sum.add(rest);
         place.pixels = sum.pixels;
     }
     cells.push(cell((0, 0), whole));
+    cells
 }

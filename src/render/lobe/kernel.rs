@@ -8,66 +8,68 @@
 
 use std::fmt::Write;
 
-use super::illumination::{Facets, Illumination, Sphere};
+use super::illumination::{Illumination, Sphere, Triangle};
 use super::spectrum::Wave;
+use super::{Forms, LightKind};
 use crate::effect::Candidate;
 use crate::form::Form;
 use crate::render::RenderError;
 use crate::render::backend::Kernel;
 
 /// Most wavelengths, spheres or triangles of one kernel.
-pub(super) const MOST: usize = 16;
+const MOST: usize = 16;
 /// Entries from which `gpu` moves an array into a buffer.
 const LEAST_ENTRIES: usize = 32;
 
-/// A triangle of a polygon.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Triangle {
-    corners: [[f32; 3]; 3],
-    radiance: [f64; 3],
+/// What one kernel adds up: lights of one kind, so that the other list is empty, and wavelengths.
+#[derive(Clone, Copy)]
+pub(super) struct Part<'a> {
+    pub(super) kind: LightKind,
+    pub(super) spheres: &'a [Sphere],
+    pub(super) triangles: &'a [Triangle],
+    /// Place of the first light among those of its kind.
+    pub(super) first: usize,
+    pub(super) waves: &'a [Wave],
+}
+
+impl Part<'_> {
+    /// Number of lights.
+    pub(super) fn count(&self) -> usize {
+        self.spheres.len() + self.triangles.len()
+    }
+}
+
+/// A scene in parts that a kernel can take each.
+pub(super) fn parts(lit: &Illumination) -> impl Iterator<Item = Part<'_>> {
+    lit.waves.chunks(MOST).flat_map(|waves| {
+        let none = Part { kind: LightKind::Sphere, spheres: &[], triangles: &[], first: 0, waves };
+        let spheres = lit.spheres.chunks(MOST).enumerate();
+        let triangles = lit.triangles.chunks(MOST).enumerate();
+        let spheres = spheres.map(move |(at, spheres)| Part { spheres, first: at * MOST, ..none });
+        spheres.chain(triangles.map(move |(at, triangles)| Part {
+            kind: LightKind::Polygon,
+            triangles,
+            first: at * MOST,
+            ..none
+        }))
+    })
 }
 
 /// The kernels whose sum is the picture that the given forms make.
 ///
 /// # Errors
 /// [`RenderError::Form`] if the text of a form cannot be put together with the scene's.
-pub(super) fn shading(
-    lit: &Illumination,
-    sphere: Option<&Candidate>,
-    polygon: Option<&Candidate>,
-) -> Result<Vec<Kernel>, RenderError> {
-    let mut kernels = Vec::new();
-    for waves in lit.waves.chunks(MOST) {
-        if let Some(candidate) = sphere {
-            for spheres in lit.spheres.chunks(MOST) {
-                let mut data = SceneData::of_waves(waves);
-                data.add_spheres(spheres);
-                let call = "scene_centre(light), scene_radius(light)";
-                let counts = (spheres.len(), waves.len());
-                kernels.push(around(candidate, &data.text(), call, counts)?);
-            }
-        }
-        if let Some(candidate) = polygon {
-            for triangles in triangles(&lit.polygons).chunks(MOST) {
-                let mut data = SceneData::of_waves(waves);
-                data.add_triangles(triangles);
-                let call = "scene_corner_a(light), scene_corner_b(light), scene_corner_c(light)";
-                let counts = (triangles.len(), waves.len());
-                kernels.push(around(candidate, &data.text(), call, counts)?);
-            }
-        }
-    }
-    Ok(kernels)
+pub(super) fn shading(lit: &Illumination, forms: &Forms) -> Result<Vec<Kernel>, RenderError> {
+    let of = |part: Part<'_>| Some(around(forms.of(part.kind)?, &part));
+    parts(lit).filter_map(of).collect()
 }
 
 /// The form with the scene around it.
-fn around(
-    candidate: &Candidate,
-    scene: &str,
-    light: &str,
-    (lights, waves): (usize, usize),
-) -> Result<Kernel, RenderError> {
-    let function = candidate.form.function();
+fn around(candidate: &Candidate, part: &Part<'_>) -> Result<Kernel, RenderError> {
+    let light = match part.kind {
+        LightKind::Sphere => "scene_centre(light), scene_radius(light)",
+        LightKind::Polygon => "scene_corner_a(light), scene_corner_b(light), scene_corner_c(light)",
+    };
     let text = format!(
         "{}\n{scene}\
          fn scene_shade(view: vec2<f32>) -> vec3<f32> {{\n\
@@ -77,64 +79,49 @@ fn around(
          \x20           let lobe = {function}(scene_kw(wave), scene_ks(wave), view, {light});\n\
          \x20           colour += lobe * (scene_weight(wave) * scene_radiance(light));\n\
          \x20       }}\n    }}\n    return colour;\n}}\n",
-        candidate.form.source()
+        candidate.form.source(),
+        scene = SceneData::of(part).text(),
+        lights = part.count(),
+        waves = part.waves.len(),
+        function = candidate.form.function(),
     );
     let form = Form::parse(candidate.form.origin(), &text, "scene_shade")?;
-    let own = candidate.form.parameters();
-    let constant = |name: &str| {
-        own.iter()
-            .zip(&candidate.constants_f32)
-            .find(|(p, _)| p.name == name)
-            .map(|(_, value)| *value)
-    };
+    let own = candidate.form.parameters().iter().zip(&candidate.constants_f32);
     // Every parameter that the shading reaches is one that the form reaches.
-    let constants =
-        form.parameters().iter().map(|p| constant(&p.name).unwrap_or(f32::NAN)).collect();
+    let constant =
+        |name: &str| own.clone().find(|(p, _)| p.name == name).map_or(f32::NAN, |c| *c.1);
+    let constants = form.parameters().iter().map(|p| constant(&p.name)).collect();
     Ok(Kernel { form, constants })
 }
 
-pub(super) fn triangles(polygons: &[Facets]) -> Vec<Triangle> {
-    let of = |polygon: &Facets| {
-        let radiance = polygon.radiance;
-        let corners = polygon.triangles.clone();
-        corners.into_iter().map(move |corners| Triangle { corners, radiance })
-    };
-    polygons.iter().flat_map(of).collect()
-}
-
 /// The numbers of a scene in one array, and the functions that read them.
+#[derive(Default)]
 pub(super) struct SceneData {
     values: Vec<f32>,
     functions: String,
 }
 
 impl SceneData {
-    pub(super) fn of_waves(waves: &[Wave]) -> Self {
-        let mut data = Self { values: Vec::new(), functions: String::new() };
-        data.add_scalars("scene_kw", "wave", waves.iter().map(|wave| wave.kw));
-        data.add_scalars("scene_ks", "wave", waves.iter().map(|wave| wave.ks));
-        let weights = waves.iter().map(|wave| wave.weight.map(|x| x as f32));
-        data.add_vectors("scene_weight", "wave", weights);
-        data
-    }
-
-    pub(super) fn add_spheres(&mut self, spheres: &[Sphere]) {
-        self.add_scalars("scene_radius", "light", spheres.iter().map(|sphere| sphere.radius));
-        self.add_vectors("scene_centre", "light", spheres.iter().map(|sphere| sphere.centre));
-        self.add_radiances(spheres.iter().map(|sphere| sphere.radiance));
-    }
-
-    pub(super) fn add_triangles(&mut self, triangles: &[Triangle]) {
-        let names = ["scene_corner_a", "scene_corner_b", "scene_corner_c"];
-        for (corner, name) in names.into_iter().enumerate() {
-            let points = triangles.iter().filter_map(|t| t.corners.get(corner).copied());
-            self.add_vectors(name, "light", points);
+    pub(super) fn of(part: &Part<'_>) -> Self {
+        let narrow = |rgb: [f64; 3]| rgb.map(|x| x as f32);
+        let mut data = Self::default();
+        data.add_scalars("scene_kw", "wave", part.waves.iter().map(|wave| wave.kw));
+        data.add_scalars("scene_ks", "wave", part.waves.iter().map(|wave| wave.ks));
+        data.add_vectors("scene_weight", "wave", part.waves.iter().map(|wave| narrow(wave.weight)));
+        if part.kind == LightKind::Sphere {
+            data.add_scalars("scene_radius", "light", part.spheres.iter().map(|s| s.radius));
+            data.add_vectors("scene_centre", "light", part.spheres.iter().map(|s| s.centre));
+        } else {
+            let names = ["scene_corner_a", "scene_corner_b", "scene_corner_c"];
+            for (corner, name) in names.into_iter().enumerate() {
+                let corners = part.triangles.iter().map(|triangle| triangle.corners[corner]);
+                data.add_vectors(name, "light", corners);
+            }
         }
-        self.add_radiances(triangles.iter().map(|triangle| triangle.radiance));
-    }
-
-    fn add_radiances(&mut self, radiances: impl Iterator<Item = [f64; 3]>) {
-        self.add_vectors("scene_radiance", "light", radiances.map(|rgb| rgb.map(|x| x as f32)));
+        let radiances = part.spheres.iter().map(|sphere| sphere.radiance);
+        let radiances = radiances.chain(part.triangles.iter().map(|triangle| triangle.radiance));
+        data.add_vectors("scene_radiance", "light", radiances.map(narrow));
+        data
     }
 
     /// Adds a number per index, read by the function `name`.
@@ -162,13 +149,10 @@ impl SceneData {
     ) {
         let first = self.values.len();
         self.values.extend(values.flatten());
-        let component = |c: usize| format!("SCENE_DATA[{}u + 3u * {index}]", first + c);
+        let [x, y, z] = [0, 1, 2].map(|c| format!("SCENE_DATA[{}u + 3u * {index}]", first + c));
         let _ = writeln!(
             self.functions,
-            "fn {name}({index}: u32) -> vec3<f32> {{ return vec3<f32>({}, {}, {}); }}",
-            component(0),
-            component(1),
-            component(2)
+            "fn {name}({index}: u32) -> vec3<f32> {{ return vec3<f32>({x}, {y}, {z}); }}"
         );
     }
 

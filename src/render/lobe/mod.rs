@@ -3,26 +3,23 @@
 
 mod illumination;
 mod kernel;
-mod reference;
 mod sampling;
-pub mod spectrum;
+mod spectrum;
 mod suited;
 
 use std::ops::Range;
 
-pub use illumination::{Facets, Illumination, Sphere};
-pub use reference::radiance;
-pub use suited::LightKind;
+use illumination::Illumination;
+pub(super) use illumination::turned;
+use suited::LightKind;
 
 use super::backend::{Backend, Kernel, Painter};
 use super::error::RenderError;
-use super::geometry::Geometry;
-use super::scene::{Material, Method, Scene};
-use super::shading::{Columns, Details, Moved, Sampler, Shader, Shading};
+use super::scene::{Method, Scene, Scratch, Spectrum};
+use super::shading::{Moved, Sampler, Shader, Shading};
 use super::times::TimedPass;
 use crate::effect::Candidate;
 use crate::gpu::TimingOptions;
-use crate::measured::spectra::Spectra;
 use crate::project::Project;
 
 /// A scratch under its lights, with the directions of view of every pixel.
@@ -33,34 +30,30 @@ pub(super) struct Lobe {
     approximations: Vec<Forms>,
 }
 
-/// The candidates of an approximation.
+/// The candidates of an approximation, by the lights that they shade.
 #[derive(Debug, Clone)]
-struct Forms {
-    sphere: Option<Candidate>,
-    polygon: Option<Candidate>,
-}
+struct Forms(Vec<(LightKind, Candidate)>);
 
 impl Lobe {
-    /// Loads what `scene` names; none for a scene of another kind.
+    /// Loads what `scene` names for a scratch with the azimuth `direction_deg`.
     ///
     /// # Errors
     /// [`RenderError`]: candidates that are not there or do not suit their light, spectra that do not
     /// load.
-    pub(super) fn prepare(scene: &Scene, project: &Project) -> Result<Option<Self>, RenderError> {
-        let (Geometry::Point { direction_deg }, Material::Scratch(scratch, spectrum)) =
-            (&scene.geometry, &scene.material)
-        else {
-            return Ok(None);
-        };
+    pub(super) fn prepare(
+        scene: &Scene,
+        (scratch, spectrum): (&Scratch, &Spectrum),
+        direction_deg: f64,
+        project: &Project,
+    ) -> Result<Self, RenderError> {
         let approximations = scene.approximations.iter().map(|of| Forms::load(&of.method, project));
         let approximations = approximations.collect::<Result<_, _>>()?;
-        let waves =
-            spectrum::waves(scratch, spectrum, || Spectra::load(&project.data().join("spectra")))?;
-        Ok(Some(Self {
-            lit: Illumination::new(scene, *direction_deg, waves)?,
-            views: scene.view.directions(*direction_deg, 0..scene.view.pixels()),
+        let waves = spectrum::waves(scratch, spectrum, &project.data().join("spectra"))?;
+        Ok(Self {
+            lit: Illumination::new(scene, direction_deg, waves)?,
+            views: scene.view.directions(direction_deg, 0..scene.view.pixels()),
             approximations,
-        }))
+        })
     }
 
     fn at(&self, pixels: Range<usize>) -> Vec<Vec<f32>> {
@@ -69,7 +62,7 @@ impl Lobe {
     }
 
     fn forms(&self, at: usize) -> Result<&Forms, RenderError> {
-        self.approximations.get(at).ok_or(RenderError::NoApproximation { at })
+        self.approximations.get(at).ok_or_else(|| RenderError::no_approximation(at))
     }
 
     /// Directions of view, numbers of pixels, and the first sample.
@@ -93,32 +86,26 @@ impl Lobe {
 
 impl Forms {
     fn load(method: &Method, project: &Project) -> Result<Self, RenderError> {
-        let Method::Forms { sphere, polygon } = method else {
-            return Ok(Self { sphere: None, polygon: None });
-        };
-        let load = |name: &Option<String>, kind: LightKind| {
-            let Some(name) = name else { return Ok(None) };
-            let found = project.candidate(name).map_err(|error| RenderError::Unsuited {
-                name: name.clone(),
-                kind: kind.word(),
-                what: error.to_string(),
-            })?;
-            kind.suits(&found).map(|()| Some(found))
-        };
-        Ok(Self {
-            sphere: load(sphere, LightKind::Sphere)?,
-            polygon: load(polygon, LightKind::Polygon)?,
-        })
+        let Method::Forms { sphere, polygon } = method else { return Ok(Self(Vec::new())) };
+        let mut forms = Vec::new();
+        for (kind, name) in [(LightKind::Sphere, sphere), (LightKind::Polygon, polygon)] {
+            let Some(name) = name else { continue };
+            let found = project.candidate(name);
+            let found = found.map_err(|error| kind.unsuited(name, &error.to_string()))?;
+            kind.suits(&found)?;
+            forms.push((kind, found));
+        }
+        Ok(Self(forms))
     }
 
-    fn each(&self) -> impl Iterator<Item = &Candidate> {
-        [&self.sphere, &self.polygon].into_iter().flatten()
+    fn of(&self, kind: LightKind) -> Option<&Candidate> {
+        self.0.iter().find(|(of, _)| *of == kind).map(|(_, candidate)| candidate)
     }
 
     /// The same with a constant moved wherever it is.
     fn moved(&self, by: Moved<'_>) -> Self {
         let mut forms = self.clone();
-        for form in [&mut forms.sphere, &mut forms.polygon].into_iter().flatten() {
+        for (_, form) in &mut forms.0 {
             let parameters = form.form.parameters().iter().zip(&mut form.constants_f32);
             for (_, value) in parameters.filter(|(parameter, _)| parameter.name == by.constant) {
                 let wide = f64::from(*value);
@@ -131,7 +118,7 @@ impl Forms {
 
 impl Shading for Lobe {
     fn exact(&self) -> Result<Shader<'_>, RenderError> {
-        Ok(Box::new(|pixels| reference::colours(&self.lit, &self.at(pixels))))
+        Ok(Box::new(|pixels| self.lit.colours(&self.at(pixels))))
     }
 
     fn picture<'a>(
@@ -142,24 +129,19 @@ impl Shading for Lobe {
     ) -> Result<Shader<'a>, RenderError> {
         let forms = self.forms(at)?;
         let forms = moved.map_or_else(|| forms.clone(), |moved| forms.moved(moved));
-        let painter = Painter::new(
-            kernel::shading(&self.lit, forms.sphere.as_ref(), forms.polygon.as_ref())?,
-            backend,
-        )?;
+        let painter = Painter::new(kernel::shading(&self.lit, &forms)?, backend)?;
         Ok(Box::new(move |pixels| painter.colours(&self.at(pixels))))
     }
 
     fn sampler<'a>(&'a self, seed: u64, backend: Backend<'a>) -> Result<Sampler<'a>, RenderError> {
         let painter = Painter::new(sampling::kernels(&self.lit, seed)?, backend)?;
-        Ok(Box::new(move |pixels, first| -> Result<Columns, RenderError> {
-            painter.colours(&self.draws(pixels, first))
-        }))
+        Ok(Box::new(move |pixels, first| painter.colours(&self.draws(pixels, first))))
     }
 
     fn constants(&self, at: usize) -> Vec<String> {
         let Ok(forms) = self.forms(at) else { return Vec::new() };
         let mut names: Vec<String> = Vec::new();
-        for parameter in forms.each().flat_map(|candidate| candidate.form.parameters()) {
+        for parameter in forms.0.iter().flat_map(|(_, of)| of.form.parameters()) {
             if !names.contains(&parameter.name) {
                 names.push(parameter.name.clone());
             }
@@ -168,8 +150,7 @@ impl Shading for Lobe {
     }
 
     fn timed(&self, at: usize) -> Result<Vec<TimedPass>, RenderError> {
-        let forms = self.forms(at)?;
-        let kernels = kernel::shading(&self.lit, forms.sphere.as_ref(), forms.polygon.as_ref())?;
+        let kernels = kernel::shading(&self.lit, self.forms(at)?)?;
         Ok(self.timed(kernels, &self.at(self.pixels())))
     }
 
@@ -178,15 +159,7 @@ impl Shading for Lobe {
         Ok(self.timed(kernels, &self.draws(self.pixels(), 0)))
     }
 
-    fn timed_in_full(&self) -> Result<Vec<TimedPass>, RenderError> {
-        Ok(Vec::new())
-    }
-
     fn timing(&self) -> TimingOptions {
         TimingOptions { points: 2048, ..TimingOptions::default() }
-    }
-
-    fn details(&self) -> Result<Details, RenderError> {
-        Ok(Details::default())
     }
 }

@@ -31,27 +31,25 @@
 //! functions ([`Spectra::linear_srgb_weights`]); what reflects 1 at every wavelength is white.
 
 use std::f64::consts::PI;
+use std::path::Path;
 
 use crate::measured::spectra::Spectra;
-
 use crate::render::RenderError;
 use crate::render::scene::{Scratch, Spectrum};
 
 /// One wavelength of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wave {
-    /// λ, nm.
-    pub wavelength_nm: f64,
+pub(super) struct Wave {
     /// kW: width of the scratch in units of λ/2π, as the forms are given it.
-    pub kw: f32,
+    pub(super) kw: f32,
     /// kσ, as the forms are given it.
-    pub ks: f32,
+    pub(super) ks: f32,
     /// What the integral I at this wavelength adds to R, G, B under a light of radiance 1.
-    pub weight: [f64; 3],
+    pub(super) weight: [f64; 3],
 }
 
 /// 2 (W/λ)² |𝒟|²: radiance per I and per radiance of the light, 1.
-pub fn response(scratch: &Scratch, wavelength_nm: f64) -> f64 {
+fn response(scratch: &Scratch, wavelength_nm: f64) -> f64 {
     let wavelength_um = wavelength_nm * 1e-3;
     let half_phase = 2.0 * PI * scratch.depth_um / wavelength_um;
     // 2 − 2 cos 2p = 4 sin² p, which keeps its digits for shallow scratches.
@@ -61,14 +59,14 @@ pub fn response(scratch: &Scratch, wavelength_nm: f64) -> f64 {
     2.0 * width * width * depth
 }
 
-/// The wavelengths of a picture; `spectra` are needed for spectral ones.
+/// The wavelengths of a picture; spectral ones take the spectra in the folder `spectra`.
 ///
 /// # Errors
 /// [`RenderError::Measured`] if the spectra cannot be had or leave out too much of the white.
-pub fn waves(
+pub(super) fn waves(
     scratch: &Scratch,
     spectrum: &Spectrum,
-    spectra: impl FnOnce() -> Result<Spectra, crate::measured::MeasuredError>,
+    spectra: &Path,
 ) -> Result<Vec<Wave>, RenderError> {
     let (wavelengths, weights) = match spectrum {
         Spectrum::Rgb(wavelengths) => {
@@ -76,14 +74,13 @@ pub fn waves(
             (wavelengths.to_vec(), (0..3).map(channel).collect())
         }
         Spectrum::Spectral(wavelengths) => {
-            (wavelengths.clone(), spectra()?.linear_srgb_weights(wavelengths)?.weights)
+            (wavelengths.clone(), Spectra::load(spectra)?.linear_srgb_weights(wavelengths)?.weights)
         }
     };
     let wave = |(&wavelength_nm, weight): (&f64, [f64; 3])| {
         let wavenumber_per_um = 2.0 * PI / (wavelength_nm * 1e-3);
         let response = response(scratch, wavelength_nm);
         Wave {
-            wavelength_nm,
             kw: (wavenumber_per_um * scratch.width_um) as f32,
             ks: (wavenumber_per_um * scratch.coherence_radius_um) as f32,
             weight: weight.map(|share| share * response),
@@ -108,13 +105,7 @@ mod tests {
 
     #[test]
     fn each_channel_has_its_wavelength() -> Result<(), RenderError> {
-        let none = || {
-            Err(crate::measured::MeasuredError::Implausible {
-                origin: "test".into(),
-                reason: "not needed".into(),
-            })
-        };
-        let waves = waves(&SCRATCH, &Spectrum::Rgb([650.0, 532.0, 450.0]), none)?;
+        let waves = waves(&SCRATCH, &Spectrum::Rgb([650.0, 532.0, 450.0]), Path::new("none"))?;
         assert_eq!(waves.len(), 3);
         assert_eq!(waves[1].weight[0], 0.0);
         assert_eq!(waves[1].weight[1], response(&SCRATCH, 532.0));

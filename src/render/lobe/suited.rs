@@ -6,7 +6,7 @@ use crate::render::RenderError;
 
 /// A kind of light, by what its forms take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LightKind {
+pub(super) enum LightKind {
     /// `(kw, ks, view, centre, radius)`.
     Sphere,
     /// `(kw, ks, view, a, b, c)`: a triangle of the polygon.
@@ -15,7 +15,7 @@ pub enum LightKind {
 
 impl LightKind {
     /// As scenes say it.
-    pub fn word(self) -> &'static str {
+    pub(super) fn word(self) -> &'static str {
         match self {
             Self::Sphere => "sphere",
             Self::Polygon => "polygon",
@@ -33,26 +33,30 @@ impl LightKind {
     /// That the form of `candidate` takes a light of this kind.
     ///
     /// # Errors
-    /// [`RenderError::Unsuited`] with the arguments expected and got.
-    pub fn suits(self, candidate: &Candidate) -> Result<(), RenderError> {
+    /// [`RenderError::Unusable`] with the arguments expected and got.
+    pub(super) fn suits(self, candidate: &Candidate) -> Result<(), RenderError> {
         let (got, expected) = (candidate.form.arguments(), self.arguments());
-        let fits = got.len() == expected.len()
+        let components = |of: &[(&str, usize)]| of.iter().map(|(_, n)| *n).collect::<Vec<_>>();
+        let listed = |of: &[(&str, usize)]| {
+            of.iter().map(|(name, n)| format!("{name}: {n}")).collect::<Vec<_>>().join(", ")
+        };
+        let taken: Vec<(&str, usize)> =
+            got.iter().map(|a| (a.name.as_str(), a.components)).collect();
+        let fits = components(&taken) == components(expected)
             && got.iter().all(|a| a.scalar == ScalarType::F32)
-            && got.iter().zip(expected).all(|(a, (_, components))| a.components == *components)
             && candidate.form.result_components() == 1;
         if fits {
             return Ok(());
         }
-        let listed = |arguments: &mut dyn Iterator<Item = (&str, usize)>| {
-            let list: Vec<String> =
-                arguments.map(|(name, components)| format!("{name}: {components}")).collect();
-            list.join(", ")
-        };
-        let what = format!(
-            "its function takes ({}), expected ({}) and one value returned",
-            listed(&mut got.iter().map(|a| (a.name.as_str(), a.components))),
-            listed(&mut expected.iter().copied())
-        );
-        Err(RenderError::Unsuited { name: candidate.name.clone(), kind: self.word(), what })
+        let (taken, expected) = (listed(&taken), listed(expected));
+        Err(self.unsuited(
+            &candidate.name,
+            &format!("its function takes ({taken}), expected ({expected}) and one value returned"),
+        ))
+    }
+
+    /// That the candidate called `name` shades no light of this kind, and why.
+    pub(super) fn unsuited(self, name: &str, why: &str) -> RenderError {
+        RenderError::Unusable(format!("{name}: cannot shade a {}: {why}", self.word()))
     }
 }

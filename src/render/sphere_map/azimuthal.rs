@@ -6,39 +6,28 @@
 //! the sum over all taps, to rounding, for any map.
 
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 use rayon::prelude::*;
+use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
-use rustfft::{Fft, FftPlanner};
 
 use super::{SphereMap, Taps};
 use crate::measured::environment::LatLong;
 
 /// A list of taps as weights between rows, per channel transformed along azimuth.
+#[derive(Debug)]
 pub struct AzimuthalOperator {
     width: usize,
     height: usize,
     /// `[row][channel]`: spectra of the weights of all rows, one after the other.
     spectra: Vec<[Vec<Complex64>; 3]>,
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
-}
-
-impl std::fmt::Debug for AzimuthalOperator {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "AzimuthalOperator({} x {})", self.width, self.height)
-    }
 }
 
 impl AzimuthalOperator {
     /// For maps of `width` × `height` texels. Takes 48 `width` · `height`² bytes.
     pub fn new(taps: &Taps, width: usize, height: usize) -> Self {
-        let mut planner = FftPlanner::new();
-        let forward = planner.plan_fft_forward(width);
-        let inverse = planner.plan_fft_inverse(width);
-        let rows = 0..height;
-        let spectra = rows
+        let forward = FftPlanner::new().plan_fft_forward(width);
+        let spectra = (0..height)
             .into_par_iter()
             .map(|row| {
                 let mut weights = row_weights(taps, row, LatLong { width, height });
@@ -49,20 +38,18 @@ impl AzimuthalOperator {
                 weights
             })
             .collect();
-        Self { width, height, spectra, forward, inverse }
+        Self { width, height, spectra }
     }
 
     /// The convolved map; `map` has the size of the operator.
     pub fn apply(&self, map: &SphereMap) -> SphereMap {
-        let texels = self.width * self.height;
+        let mut planner = FftPlanner::new();
+        let forward = planner.plan_fft_forward(self.width);
+        let inverse = planner.plan_fft_inverse(self.width);
         let spectrum = |channel: usize| {
-            let mut values: Vec<Complex64> = (0..texels)
-                .map(|at| {
-                    let value = map.rgb.get(3 * at + channel).copied().unwrap_or(f32::NAN);
-                    Complex64::new(f64::from(value), 0.0)
-                })
-                .collect();
-            self.forward.process(&mut values);
+            let values = map.rgb.iter().skip(channel).step_by(3);
+            let mut values: Vec<Complex64> = values.map(|v| f64::from(*v).into()).collect();
+            forward.process(&mut values);
             values
         };
         let map_spectra = [0, 1, 2].map(spectrum);
@@ -80,7 +67,7 @@ impl AzimuthalOperator {
                             *sum += weight.conj() * value;
                         }
                     }
-                    self.inverse.process(&mut sums);
+                    inverse.process(&mut sums);
                     for (at, sum) in sums.iter().enumerate() {
                         line[3 * at + channel] = (sum.re / self.width as f64) as f32;
                     }

@@ -1,12 +1,20 @@
 //! A diffraction table over the two angles of the passes.
 
-use crate::factor::{Alignment, LowRank};
+use crate::factor::{Alignment, ChannelFactors, LowRank};
 use crate::table::{Axis, Edge, Grid, GridChannel, centres};
 
 use super::Taps;
 
 /// The channels of a kernel.
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
+
+/// Where a move by an angle along a direction of h leads from the outward direction.
+pub(in crate::render) fn along([x, y]: [f64; 2]) -> impl Fn(f64) -> [f64; 3] {
+    move |angle| {
+        let (sin, cos) = angle.sin_cos();
+        [sin * x, sin * y, cos]
+    }
+}
 
 /// A table times the geometric factor and the Jacobian, over two angles: what a convolution under
 /// n = ω_o = r_v sums (see [`crate::render::sphere_map`]).
@@ -79,43 +87,28 @@ impl AngularKernel {
         let cell = self.cell();
         for (at, [s_x, s_y]) in centres(grid.x(), grid.y()).enumerate() {
             let (h, _) = self.at(s_x, s_y);
-            let mut weight = [0.0; 3];
-            for (weight, channel) in weight.iter_mut().zip(&grid.channels) {
-                *weight = cell * channel.values.get(at).map_or(0.0, |v| f64::from(*v));
-            }
+            let weight = [0, 1, 2].map(|c| cell * f64::from(grid.channels[c].values[at]));
             let out = (1.0 - h[0] * h[0] - h[1] * h[1]).max(0.0).sqrt();
             taps.push([h[0], h[1], out], weight);
         }
         taps
     }
 
-    /// The taps of the two passes of every term of `factors`, which were made from this grid:
-    /// (first pass, second pass).
-    pub fn passes(&self, factors: &LowRank) -> Vec<(Taps, Taps)> {
-        let terms = factors.channels.iter().map(|c| c.vertical.len()).min().unwrap_or(0);
-        let along = |axis: &Axis, direction: [f64; 2], values: &dyn Fn(usize, usize) -> f64| {
-            let mut taps = Taps::default();
-            for at in 0..axis.count {
-                let (sin, cos) = axis.centre(at).sin_cos();
-                let weight = [0, 1, 2].map(|channel| values(channel, at) * axis.step().abs());
-                taps.push([sin * direction[0], sin * direction[1], cos], weight);
-            }
-            taps
+    /// The taps of every term of `factors`, which were made from this grid, in the first pass and in
+    /// the second.
+    pub fn passes(&self, factors: &LowRank) -> [Vec<Taps>; 2] {
+        let pass = |at: usize, lists: fn(&ChannelFactors) -> &[Vec<f64>]| {
+            let channels = [0, 1, 2].map(|channel| lists(&factors.channels[channel]));
+            let terms = 0..channels.map(<[_]>::len).into_iter().min().unwrap_or(0);
+            let taps = terms.map(|term| {
+                let mut taps = Taps::default();
+                let place = along(self.directions[at]);
+                taps.push_line(&self.grid.axes[at], place, channels.map(|c| c[term].as_slice()));
+                taps
+            });
+            taps.collect()
         };
-        let [first, second] = self.directions;
-        (0..terms)
-            .map(|term| {
-                let of = |lists: fn(&crate::factor::ChannelFactors) -> &Vec<Vec<f64>>| {
-                    move |channel: usize, at: usize| {
-                        let channel = factors.channels.get(channel);
-                        channel.and_then(|c| lists(c).get(term)?.get(at).copied()).unwrap_or(0.0)
-                    }
-                };
-                let horizontal = along(self.grid.x(), first, &of(|c| &c.horizontal));
-                let vertical = along(self.grid.y(), second, &of(|c| &c.vertical));
-                (horizontal, vertical)
-            })
-            .collect()
+        [pass(0, |c| &c.horizontal), pass(1, |c| &c.vertical)]
     }
 
     /// Area of a cell, rad².
@@ -125,10 +118,7 @@ impl AngularKernel {
 
     /// Sum of the weights of R, G, B: the radiance in an environment of radiance 1.
     pub fn albedo(&self) -> [f64; 3] {
-        let mut sums = [0.0; 3];
-        for (sum, channel) in sums.iter_mut().zip(&self.grid.channels) {
-            *sum = self.cell() * channel.values.iter().map(|v| f64::from(*v)).sum::<f64>();
-        }
-        sums
+        let sum = |values: &[f32]| values.iter().map(|value| f64::from(*value)).sum::<f64>();
+        [0, 1, 2].map(|channel| self.cell() * sum(&self.grid.channels[channel].values))
     }
 }

@@ -41,8 +41,9 @@ mod taps;
 
 pub use azimuthal::AzimuthalOperator;
 pub use kernel::AngularKernel;
+pub(in crate::render) use kernel::along;
+pub(in crate::render) use passes::{MOST_TAPS, STILL, kernel, lookup, summed};
 pub use passes::{convolved, turned};
-pub(in crate::render) use passes::{kernel, lookup};
 pub use taps::Taps;
 
 use crate::measured::environment::{Environment, LatLong};
@@ -69,21 +70,13 @@ impl From<&Environment> for SphereMap {
 }
 
 impl SphereMap {
-    /// How its texels lie over the sphere.
-    pub fn layout(&self) -> LatLong {
+    fn layout(&self) -> LatLong {
         LatLong { width: self.width, height: self.height }
     }
 
-    /// R, G, B in a direction of any length but 0, in f64: bilinear ([`LatLong::around`]).
+    /// R, G, B in a direction of any length but 0, in f64: bilinear ([`LatLong::bilinear`]).
     pub fn bilinear(&self, direction: [f64; 3]) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for (texel, share) in self.layout().around(direction) {
-            let texel = self.rgb.get(3 * texel..).unwrap_or_default();
-            for (sum, value) in sum.iter_mut().zip(texel) {
-                *sum += share * f64::from(*value);
-            }
-        }
-        sum
+        self.layout().bilinear(direction, self.rgb.as_chunks().0)
     }
 
     /// Columns of the texels' places, `first` and `layer` as [`passes`] take them.

@@ -1,11 +1,10 @@
 //! Passes over a map: turned, convolved, looked up, on the device or on CPU lanes from one text.
 
-use std::sync::Arc;
-
 use super::{SphereMap, Taps};
 use crate::form::{DataTable, Form};
 use crate::render::RenderError;
-use crate::render::backend::{Backend, Kernel, Painter};
+use crate::render::backend::{Backend, Kernel, Painter, add};
+use crate::render::shading::Columns;
 use crate::render::times::TimedPass;
 
 /// The text of all passes.
@@ -13,9 +12,10 @@ pub(in crate::render) const TEXT: &str = include_str!("sphere_map.wgsl");
 /// The file of that text.
 const FILE: &str = "src/render/sphere_map/sphere_map.wgsl";
 /// Most taps of one evaluation.
-const MOST_TAPS: usize = 1024;
+pub(in crate::render) const MOST_TAPS: usize = 1024;
 /// No turn.
-const STILL: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+pub(in crate::render) const STILL: [[f64; 3]; 3] =
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// A kernel over `layers`, which have one size: a text, its file and the function, with `more` tables.
 pub(in crate::render) fn kernel(
@@ -28,8 +28,7 @@ pub(in crate::render) fn kernel(
 ) -> Result<Kernel, RenderError> {
     let (width, height) = layers.first().map_or((2, 1), |layer| (layer.width, layer.height));
     let maps: Vec<f32> = layers.iter().flat_map(|layer| layer.rgb.iter().copied()).collect();
-    let none = [0.0_f32; Taps::WIDTH];
-    let numbers: Arc<[f32]> = if taps.count() == 0 { none.into() } else { taps.numbers().into() };
+    let numbers = if taps.count() == 0 { &[0.0; 6] } else { taps.numbers() };
     let mut tables = vec![DataTable::new("environment", maps), DataTable::new("taps", numbers)];
     tables.extend(more);
     let form = Form::parse_with(file, text, function, tables)?;
@@ -89,75 +88,74 @@ pub fn convolved(
     backend: Backend<'_>,
 ) -> Result<Vec<SphereMap>, RenderError> {
     let Some(map) = layers.first() else { return Ok(Vec::new()) };
-    let plan = Plan::new(layers, lists);
-    let painter = Painter::new(vec![plan.kernel(layers)?], backend)?;
-    let [column, row] = map.places();
-    let texels = column.len();
-    let mut results = Vec::with_capacity(lists.len());
-    for blocks in &plan.blocks {
-        let mut sums = vec![vec![0.0_f32; texels]; 3];
-        for (first, layer) in blocks {
-            let inputs = [column.clone(), row.clone(), vec![*first; texels], vec![*layer; texels]];
-            let values = painter.colours(&inputs)?;
-            for (sum, column) in sums.iter_mut().zip(values) {
-                sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += value);
-            }
+    let (kernel, blocks) = convolution(layers, lists)?;
+    let painter = Painter::new(vec![kernel], backend)?;
+    let places = map.places();
+    blocks.iter().map(|blocks| Ok(map.with(&summed(&painter, &places, blocks)?))).collect()
+}
+
+/// The kernel of [`convolved`], and per list the first tap and the layer of each of its blocks: lists
+/// are padded to whole blocks, so that a block belongs to one list.
+fn convolution(
+    layers: &[SphereMap],
+    lists: &[Taps],
+) -> Result<(Kernel, Vec<Vec<[f32; 2]>>), RenderError> {
+    let longest = lists.iter().map(Taps::count).max().unwrap_or(0);
+    let per_evaluation = longest.clamp(1, MOST_TAPS);
+    let mut taps = Taps::default();
+    let mut blocks = Vec::with_capacity(lists.len());
+    for (at, list) in lists.iter().enumerate() {
+        let begin = taps.count();
+        taps.extend(list);
+        while taps.count() % per_evaluation != 0 {
+            taps.push([0.0, 0.0, 1.0], [0.0; 3]);
         }
-        results.push(map.with(&sums));
+        let layer = at.min(layers.len().saturating_sub(1)) as f32;
+        let firsts = (begin..taps.count()).step_by(per_evaluation);
+        blocks.push(firsts.map(|first| [first as f32, layer]).collect());
     }
-    Ok(results)
+    let text = (TEXT, FILE, "convolved");
+    Ok((kernel(text, layers, &taps, per_evaluation, STILL, Vec::new())?, blocks))
+}
+
+/// R, G, B at `points`, given as columns, added up over blocks of taps; what stands for a block follows
+/// the columns.
+pub(in crate::render) fn summed<const N: usize>(
+    painter: &Painter<'_>,
+    points: &[Vec<f32>],
+    blocks: &[[f32; N]],
+) -> Result<Columns, RenderError> {
+    let mut sums = vec![vec![0.0; points.first().map_or(0, Vec::len)]; 3];
+    for block in blocks {
+        add(&mut sums, painter.colours(&with_block(points, *block))?);
+    }
+    Ok(sums)
+}
+
+fn with_block<const N: usize>(points: &[Vec<f32>], block: [f32; N]) -> Columns {
+    let rows = points.first().map_or(0, Vec::len);
+    points.iter().cloned().chain(block.map(|value| vec![value; rows])).collect()
 }
 
 impl TimedPass {
-    /// The pass that [`convolved`] makes, at every `stride`th texel of the first block.
+    /// The pass that [`convolved`] makes; `layers` are not empty.
     ///
     /// # Errors
     /// As [`turned`].
     pub fn convolved(layers: &[SphereMap], lists: &[Taps]) -> Result<Self, RenderError> {
-        let plan = Plan::new(layers, lists);
-        let texels = layers.first().map_or(0, |map| map.width * map.height);
-        let map =
-            layers.first().cloned().unwrap_or(SphereMap { width: 2, height: 1, rgb: vec![0.0; 6] });
-        let [column, row] = map.places();
-        let count = column.len();
-        let blocks = plan.blocks.iter().map(Vec::len).sum::<usize>();
-        Ok(Self {
-            kernel: plan.kernel(layers)?,
-            inputs: vec![column, row, vec![0.0; count], vec![0.0; count]],
-            evaluations: texels * blocks,
-        })
-    }
-}
-
-/// How lists of taps are laid out: padded to whole blocks, so that a block belongs to one list.
-struct Plan {
-    taps: Taps,
-    per_evaluation: usize,
-    /// Per list: first tap and layer of each block.
-    blocks: Vec<Vec<(f32, f32)>>,
-}
-
-impl Plan {
-    fn new(layers: &[SphereMap], lists: &[Taps]) -> Self {
-        let longest = lists.iter().map(Taps::count).max().unwrap_or(0);
-        let per_evaluation = longest.clamp(1, MOST_TAPS);
-        let mut taps = Taps::default();
-        let mut blocks = Vec::with_capacity(lists.len());
-        for (at, list) in lists.iter().enumerate() {
-            let begin = taps.count();
-            taps.extend(list);
-            while taps.count() % per_evaluation != 0 {
-                taps.push([0.0, 0.0, 1.0], [0.0; 3]);
-            }
-            let layer = at.min(layers.len().saturating_sub(1)) as f32;
-            let firsts = (begin..taps.count()).step_by(per_evaluation);
-            blocks.push(firsts.map(|first| (first as f32, layer)).collect());
-        }
-        Self { taps, per_evaluation, blocks }
+        let (kernel, blocks) = convolution(layers, lists)?;
+        Ok(Self::summed(kernel, &layers[0].places(), [0.0; 2], blocks.iter().map(Vec::len).sum()))
     }
 
-    fn kernel(&self, layers: &[SphereMap]) -> Result<Kernel, RenderError> {
-        let text = (TEXT, FILE, "convolved");
-        kernel(text, layers, &self.taps, self.per_evaluation, STILL, Vec::new())
+    /// The sum over `blocks` blocks of taps at `points`, as [`summed`] makes it.
+    pub(in crate::render) fn summed<const N: usize>(
+        kernel: Kernel,
+        points: &[Vec<f32>],
+        block: [f32; N],
+        blocks: usize,
+    ) -> Self {
+        let inputs = with_block(points, block);
+        let evaluations = blocks * points.first().map_or(0, Vec::len);
+        Self { kernel, inputs, evaluations }
     }
 }

@@ -4,14 +4,12 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::LEFT_OUT;
-use super::integral::integrals;
 use super::kernels::DiffractionKernels;
-use super::methods::Surroundings;
-use super::sums::table_taps;
+use super::sums::{columns, integrals, table_taps};
 use crate::render::RenderError;
 use crate::render::backend::Backend;
 use crate::render::geometry::{Frame, Hit};
-use crate::render::sphere_map::{AzimuthalOperator, lookup};
+use crate::render::sphere_map::{AzimuthalOperator, SphereMap, lookup};
 
 /// Angles of incidence, degrees.
 const ANGLES_DEG: [f64; 8] = [2.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 75.0];
@@ -28,23 +26,19 @@ pub struct AngleError {
     pub mean_ratio: f64,
 }
 
-/// Compares at [`AZIMUTHS`] azimuths per angle on a plane.
+/// Compares at [`AZIMUTHS`] azimuths per angle on a plane under `object`, in its frame.
 ///
 /// # Errors
 /// [`RenderError`] if the lookup does not compile.
 pub(super) fn by_angle(
-    surroundings: &Surroundings,
+    object: &SphereMap,
     kernels: &DiffractionKernels,
     operator: &AzimuthalOperator,
 ) -> Result<Vec<AngleError>, RenderError> {
-    let (taps, _) = table_taps(&kernels.table).thinned(LEFT_OUT);
-    // In the frame of the surface, in whose map both look: neither is blurred more than the other.
+    let taps = table_taps(&kernels.table).thinned(LEFT_OUT);
+    // In whose map both look: neither is blurred more than the other.
     let frame = Frame::of(Vector3::x(), Vector3::y());
-    let convolved = lookup(&operator.apply(&surroundings.object), Backend::Lanes)?;
-    let directions = |hits: &[Hit]| -> Vec<Vec<f32>> {
-        let column = |axis: usize| hits.iter().map(|hit| hit.reflection[axis] as f32).collect();
-        (0..3).map(column).collect()
-    };
+    let convolved = lookup(&operator.apply(object), Backend::Lanes)?;
     ANGLES_DEG
         .iter()
         .map(|&angle_deg| {
@@ -57,13 +51,12 @@ pub(super) fn by_angle(
                     Hit::of_directions(frame, reflection)
                 })
                 .collect();
-            let exact = integrals(&surroundings.object, &hits, &taps);
-            let found = convolved.colours(&directions(&hits))?;
+            let exact = integrals(object, &hits, &taps);
+            let found = convolved.colours(&columns(&hits, |hit| hit.reflection))?;
             let (mut errors, mut squares, mut sums) = (0.0, 0.0, [0.0; 2]);
             for (at, exact) in exact.iter().enumerate() {
-                for (channel, exact) in exact.iter().enumerate() {
-                    let value = found.get(channel).and_then(|column| column.get(at));
-                    let value = value.map_or(f64::NAN, |value| f64::from(*value));
+                for (column, exact) in found.iter().zip(exact) {
+                    let value = f64::from(column[at]);
                     errors += (value - exact) * (value - exact);
                     squares += exact * exact;
                     sums[0] += value;

@@ -1,18 +1,21 @@
 //! A diffraction table and what is made of it before anything is rendered.
 
+use std::fmt::Display;
+
 use crate::effects::diffraction;
 use crate::factor::{
-    Alignment, ConvolutionNorm, ConvolvedOptions, Decomposition, LowRank, NormOptions,
-    SearchOptions, convolved, directional, main_directions,
+    Alignment, ConvolutionNorm, ConvolvedOptions, Decomposition, DirectionalKernel, LowRank,
+    NormOptions, SearchOptions, convolved, directional, main_directions,
 };
+use crate::measured::MeasuredError;
 use crate::measured::environment::Environment;
 use crate::measured::spectra::Spectra;
 use crate::render::RenderError;
 use crate::render::scene::{Factors, TableSource};
-use crate::render::sphere_map::{AngularKernel, Taps};
+use crate::render::sphere_map::{AngularKernel, Taps, along};
 use crate::table::Grid;
 
-use super::sums::{line_taps, table_taps};
+use super::sums::table_taps;
 
 /// Share of |S| that sums over a reconstructed table leave out.
 const LEFT_OUT: f64 = 1e-3;
@@ -80,16 +83,8 @@ impl DiffractionKernels {
         let width = LINE_HALF_WIDTH * self.angular.grid.x().step().abs();
         let lines = directional(&self.angular.grid, &axes, width)?;
         let mut taps = Taps::default();
-        for (kernel, direction) in lines.kernels.iter().zip(self.angular.directions) {
-            let step = kernel.axis.step().abs();
-            for at in 0..kernel.axis.count {
-                let (sin, cos) = kernel.axis.centre(at).sin_cos();
-                let weight = [0, 1, 2].map(|channel| {
-                    let values = kernel.channels.get(channel).map(|(_, values)| values);
-                    values.and_then(|values| values.get(at)).map_or(0.0, |value| value * step)
-                });
-                taps.push([sin * direction[0], sin * direction[1], cos], weight);
-            }
+        for (line, direction) in lines.kernels.iter().zip(self.angular.directions) {
+            taps.push_line(&line.axis, along(direction), profiles(line));
         }
         Ok(taps)
     }
@@ -100,7 +95,12 @@ impl DiffractionKernels {
     /// As [`directional`].
     pub fn line(&self) -> Result<Taps, RenderError> {
         let lines = directional(&self.table, &[[1.0, 0.0]], f64::INFINITY)?;
-        Ok(line_taps(&lines.kernels))
+        let mut taps = Taps::default();
+        for line in &lines.kernels {
+            let ([x, y], step) = (line.direction, line.axis.step().abs());
+            taps.push_line(&line.axis, |h| [h * x, h * y, step], profiles(line));
+        }
+        Ok(taps)
     }
 
     /// The taps of eq. 3 with the table that factors of rank `rank` of it give.
@@ -110,34 +110,36 @@ impl DiffractionKernels {
     pub fn reconstructed(&self, rank: usize) -> Result<Taps, RenderError> {
         let factors = Decomposition::of(&self.table)?.low_rank(rank)?;
         let taps = table_taps(&factors.to_grid(self.table.x(), self.table.y())?);
-        Ok(taps.thinned(LEFT_OUT).0)
+        Ok(taps.thinned(LEFT_OUT))
     }
+}
+
+/// What a line has in the first three channels of its table: R, G, B.
+fn profiles(line: &DirectionalKernel) -> [&[f64]; 3] {
+    [0, 1, 2].map(|channel| line.channels[channel].1.as_slice())
 }
 
 /// Reads or simulates a table and checks its axes and channels.
 fn table(source: &TableSource, spectra: &Spectra) -> Result<Grid, RenderError> {
     let grid = match source {
-        TableSource::File(path) => {
-            Grid::read_exr(path).map_err(crate::measured::MeasuredError::from)?
-        }
+        TableSource::File(path) => Grid::read_exr(path).map_err(MeasuredError::from)?,
         TableSource::Simulated(settings) => {
-            let refused =
-                |error: &dyn std::fmt::Display| RenderError::Simulation(error.to_string());
+            let refused = |error: &dyn Display| RenderError::Unusable(error.to_string());
             let settings = diffraction::settings(settings).map_err(|error| refused(&error))?;
             diffraction::simulated_table(&settings, spectra).map_err(|error| refused(&error))?
         }
     };
-    grid.check_plane().map_err(crate::measured::MeasuredError::from)?;
+    grid.check_plane().map_err(MeasuredError::from)?;
     for (axis, name) in [(grid.x(), "h_x"), (grid.y(), "h_y")] {
         if axis.name != name || axis.unit != "1" {
-            return Err(RenderError::Simulation(format!(
+            return Err(RenderError::Unusable(format!(
                 "{}: expected an axis {name} [1], got {} [{}]",
                 grid.origin, axis.name, axis.unit
             )));
         }
     }
     for channel in ["R", "G", "B"] {
-        grid.require(channel).map_err(crate::measured::MeasuredError::from)?;
+        grid.require(channel).map_err(MeasuredError::from)?;
     }
     Ok(grid)
 }

@@ -1,24 +1,25 @@
 //! The ways to shade a surface: maps convolved ahead and looked up, or sums at every point.
 
+use std::ops::Range;
+
 use nalgebra::Vector3;
 
 use super::kernels::DiffractionKernels;
-use super::sums::timed;
+use super::sums::{columns, timed};
 use crate::render::RenderError;
 use crate::render::backend::Backend;
-use crate::render::geometry::{Frame, Hit};
+use crate::render::geometry::{Frame, Geometry, Hit};
 use crate::render::scene::{Factors, Method, Straighten};
 use crate::render::shading::Columns;
-use crate::render::sphere_map::{SphereMap, Taps, convolved, turned};
+use crate::render::sphere_map::{self, SphereMap, Taps, turned};
 use crate::render::times::TimedPass;
+use crate::render::view::Camera;
 
 /// What an approximation sums.
 #[derive(Debug, Clone)]
-pub enum Plan {
-    /// Passes over a map: per term the taps of the first pass and of the second.
-    Passes(Vec<(Taps, Taps)>),
-    /// One pass over a map.
-    Single(Taps),
+pub(super) enum Plan {
+    /// Passes over maps, one after the other: the taps of every layer in each.
+    Passes(Vec<Vec<Taps>>),
     /// A sum at every point.
     Sums(Taps),
 }
@@ -28,142 +29,143 @@ impl Plan {
     ///
     /// # Errors
     /// [`RenderError`] if the table cannot be factorised so, or forms shade and nothing is summed.
-    pub fn new(method: &Method, kernels: &DiffractionKernels) -> Result<Self, RenderError> {
-        let passes = |factors| Self::Passes(kernels.angular.passes(&factors));
+    pub(super) fn new(method: &Method, kernels: &DiffractionKernels) -> Result<Self, RenderError> {
+        let two = |factors| Self::Passes(kernels.angular.passes(&factors).into());
         Ok(match method {
-            Method::TwoPass { rank, factors } => passes(kernels.factors(*rank, *factors)?),
+            Method::TwoPass { rank, factors } => two(kernels.factors(*rank, *factors)?),
             Method::Printed { rank } => {
-                passes(kernels.factors(*rank, Factors::Svd)?.cross_rank_printed())
+                two(kernels.factors(*rank, Factors::Svd)?.cross_rank_printed())
             }
-            Method::Sum => Self::Single(kernels.blurs()?),
+            Method::Sum => Self::Passes(vec![vec![kernels.blurs()?]]),
             Method::Line => Self::Sums(kernels.line()?),
             Method::Reconstructed { rank } => Self::Sums(kernels.reconstructed(*rank)?),
             Method::Forms { .. } => {
-                return Err(RenderError::Simulation("forms sum no diffraction table".into()));
+                return Err(RenderError::Unusable("forms sum no diffraction table".into()));
             }
         })
-    }
-
-    /// Convolves `map`, in the frame in which it is given; none for sums at points.
-    ///
-    /// # Errors
-    /// [`RenderError`] if a kernel does not compile or the device fails.
-    pub fn convolved(
-        &self,
-        map: &SphereMap,
-        backend: Backend<'_>,
-    ) -> Result<Option<SphereMap>, RenderError> {
-        let one = std::slice::from_ref(map);
-        let layers = match self {
-            Self::Passes(terms) => {
-                let (first, second): (Vec<Taps>, Vec<Taps>) = terms.iter().cloned().unzip();
-                convolved(&convolved(one, &first, backend)?, &second, backend)?
-            }
-            Self::Single(taps) => convolved(one, std::slice::from_ref(taps), backend)?,
-            Self::Sums(_) => return Ok(None),
-        };
-        let mut layers = layers.into_iter();
-        let Some(mut sum) = layers.next() else { return Ok(None) };
-        for layer in layers {
-            sum.rgb.iter_mut().zip(layer.rgb).for_each(|(sum, value)| *sum += value);
-        }
-        Ok(Some(sum))
     }
 
     /// The kernels to time: passes over `map`, or sums at `hits`.
     ///
     /// # Errors
     /// [`RenderError`] if a kernel does not parse.
-    pub fn timed(&self, map: &SphereMap, hits: &[Hit]) -> Result<Vec<TimedPass>, RenderError> {
-        let one = std::slice::from_ref(map);
-        Ok(match self {
-            Self::Passes(terms) => {
-                let (first, second): (Vec<Taps>, Vec<Taps>) = terms.iter().cloned().unzip();
-                let layers = vec![map.clone(); terms.len()];
-                vec![TimedPass::convolved(one, &first)?, TimedPass::convolved(&layers, &second)?]
-            }
-            Self::Single(taps) => vec![TimedPass::convolved(one, std::slice::from_ref(taps))?],
-            Self::Sums(taps) => vec![timed(map, hits, taps)?],
-        })
-    }
-
-    /// The same with the directions of all taps turned by `angle` about the outward direction.
-    fn turned(&self, angle: f64) -> Self {
-        let (sin, cos) = angle.sin_cos();
-        let turn = |taps: &Taps| {
-            let mut turned = Taps::default();
-            for ([x, y, z], weight) in taps.iter() {
-                turned.push([x * cos - y * sin, x * sin + y * cos, z], weight);
-            }
-            turned
+    pub(super) fn timed(
+        &self,
+        map: &SphereMap,
+        hits: &[Hit],
+    ) -> Result<Vec<TimedPass>, RenderError> {
+        let passes = match self {
+            Self::Passes(passes) => passes,
+            Self::Sums(taps) => return Ok(vec![timed(map, hits, taps)?]),
         };
-        match self {
-            Self::Passes(terms) => {
-                Self::Passes(terms.iter().map(|(a, b)| (turn(a), turn(b))).collect())
-            }
-            Self::Single(taps) => Self::Single(turn(taps)),
-            Self::Sums(taps) => Self::Sums(taps.clone()),
+        let mut layers = vec![map.clone()];
+        let mut timed = Vec::with_capacity(passes.len());
+        for lists in passes {
+            timed.push(TimedPass::convolved(&layers, lists)?);
+            layers.resize(lists.len(), map.clone());
         }
+        Ok(timed)
     }
 }
 
-/// An environment about a surface, in the frame of the world and in that of the surface.
-#[derive(Debug, Clone)]
-pub struct Surroundings {
-    /// In the frame of the world.
-    pub world: SphereMap,
-    /// The normal at azimuth 0 on the equator, the first tangent its east.
-    pub object: SphereMap,
+/// `map` after passes, in the frame in which it is given: the sum of what they make of it.
+fn convolved(
+    map: &SphereMap,
+    passes: &[Vec<Taps>],
+    backend: Backend<'_>,
+) -> Result<SphereMap, RenderError> {
+    let mut layers = vec![map.clone()];
+    for lists in passes {
+        layers = sphere_map::convolved(&layers, lists, backend)?;
+    }
+    let mut sum = layers.remove(0);
+    for layer in layers {
+        sum.rgb.iter_mut().zip(layer.rgb).for_each(|(sum, value)| *sum += value);
+    }
+    Ok(sum)
+}
+
+/// `taps` with their directions turned by `angle` about the outward direction.
+fn turned_taps(taps: &Taps, angle: f64) -> Taps {
+    let (sin, cos) = angle.sin_cos();
+    let mut turned = Taps::default();
+    for ([x, y, z], weight) in taps.iter() {
+        turned.push([x * cos - y * sin, x * sin + y * cos, z], weight);
+    }
+    turned
+}
+
+/// What is seen of a surface in one frame, and what it is lit by.
+#[derive(Debug)]
+pub(super) struct Lit {
+    /// Pixels of the picture, in order, where the surface is met, and what is met there.
+    pub(super) pixels: Vec<usize>,
+    pub(super) hits: Vec<Hit>,
+    /// The environment in the frame of the world.
+    pub(super) world: SphereMap,
+    /// And in that of the surface: the normal at azimuth 0 on the equator, the first tangent its east.
+    pub(super) object: SphereMap,
     frame: Frame,
 }
 
-impl Surroundings {
-    /// Turns `world` into `frame`, on the CPU.
+impl Lit {
+    /// What a picture of `size` shows of `shape` under `world`, which is turned on the CPU.
     ///
     /// # Errors
     /// [`RenderError`] if the kernel does not compile.
-    pub fn new(world: SphereMap, frame: Frame) -> Result<Self, RenderError> {
-        let rows = frame.rows();
+    pub(super) fn new(
+        camera: &Camera,
+        size: [usize; 2],
+        shape: Geometry,
+        world: SphereMap,
+    ) -> Result<Self, RenderError> {
+        let hits = (0..size[0] * size[1])
+            .filter_map(|pixel| Some((pixel, shape.hit(&camera.ray(size, pixel))?)));
+        let (pixels, hits) = hits.unzip();
+        let rows = shape.frame.rows();
         // A direction d of the object is Σ rows[i] d_i in the world.
         let turn = [0, 1, 2].map(|axis| rows.map(|row| row[axis]));
         let object = turned(&world, turn, Backend::Lanes)?;
-        Ok(Self { world, object, frame })
+        Ok(Self { pixels, hits, world, object, frame: shape.frame })
     }
 
-    /// The map convolved by `plan`, and whether it is looked up in the frame of the surface.
+    /// What pixels of a range show.
+    pub(super) fn within(&self, range: &Range<usize>) -> (&[usize], &[Hit]) {
+        let place = |pixel: usize| self.pixels.partition_point(|other| *other < pixel);
+        let part = place(range.start)..place(range.end);
+        (&self.pixels[part.clone()], &self.hits[part])
+    }
+
+    /// The map after `passes`, and whether it is looked up in the frame of the surface.
     ///
     /// # Errors
-    /// [`RenderError`] if a kernel does not compile, the device fails, or the plan sums at points.
-    pub fn convolved(
+    /// [`RenderError`] if a kernel does not compile or the device fails.
+    pub(super) fn convolved(
         &self,
-        plan: &Plan,
+        passes: &[Vec<Taps>],
         straighten: Straighten,
         backend: Backend<'_>,
     ) -> Result<(SphereMap, bool), RenderError> {
-        let missing = || RenderError::Simulation("a plan without passes over a map".into());
         if straighten == Straighten::None {
-            let plan = plan.turned(self.turn_in_world());
-            return Ok((plan.convolved(&self.world, backend)?.ok_or_else(missing)?, false));
+            let angle = self.turn_in_world();
+            let turn = |lists: &Vec<Taps>| lists.iter().map(|of| turned_taps(of, angle)).collect();
+            let passes: Vec<Vec<Taps>> = passes.iter().map(turn).collect();
+            return Ok((convolved(&self.world, &passes, backend)?, false));
         }
-        let map = plan.convolved(&self.object, backend)?.ok_or_else(missing)?;
+        let map = convolved(&self.object, passes, backend)?;
         if straighten == Straighten::Lookup {
             return Ok((map, true));
         }
-        let rows = self.frame.rows().map(|row| [row.x, row.y, row.z]);
-        Ok((turned(&map, rows, backend)?, false))
+        Ok((turned(&map, self.frame.rows().map(Into::into), backend)?, false))
     }
 
-    /// Mirror directions of hits in the frame of the world.
-    pub fn in_world(&self, hits: &[Hit]) -> Columns {
-        let column = |axis| hits.iter().map(|hit| hit.reflection[axis] as f32).collect();
-        (0..3).map(column).collect()
-    }
-
-    /// Mirror directions of hits in the frame of the surface.
-    pub fn in_object(&self, hits: &[Hit]) -> Columns {
-        let column =
-            |axis: &Vector3<f64>| hits.iter().map(|hit| hit.reflection.dot(axis) as f32).collect();
-        self.frame.rows().iter().map(column).collect()
+    /// Mirror directions of hits in the frame of the world, or in that of the surface.
+    pub(super) fn directions(&self, hits: &[Hit], in_object: bool) -> Columns {
+        if !in_object {
+            return columns(hits, |hit| hit.reflection);
+        }
+        let rows = self.frame.rows();
+        columns(hits, |hit| rows.map(|row| hit.reflection.dot(&row)).into())
     }
 
     /// Angle from the east of the world at the normal to the first tangent.

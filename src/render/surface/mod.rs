@@ -2,7 +2,6 @@
 //! table, and eq. 3 of toisoul2017 at every point.
 
 mod angles;
-mod integral;
 mod kernels;
 mod methods;
 mod sampling;
@@ -10,28 +9,27 @@ mod sums;
 
 use std::ops::Range;
 use std::path::Path;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 pub use angles::AngleError;
-pub use integral::integrals;
 pub use kernels::DiffractionKernels;
-pub use methods::{Plan, Surroundings};
-pub use sums::{line_taps, surface_sums, table_taps};
+pub use sums::{Sums, integrals, table_taps};
 
 use super::backend::{Backend, Painter};
 use super::error::RenderError;
-use super::geometry::{Geometry, Hit};
-use super::scene::{Convolution, Light, LightShape, Material, Method, ReferenceMethod, Scene};
-use super::shading::{Columns, Details, Moved, Sampler, Shader, Shading};
+use super::geometry::Hit;
+use super::scene::{Convolution, Diffraction, Light, LightShape, Method, ReferenceMethod, Scene};
+use super::shading::{Columns, Details, Moved, Sampler, Shader, Shading, rgb_columns};
 use super::sphere_map::{AzimuthalOperator, SphereMap, Taps, lookup};
 use super::times::TimedPass;
-use super::view::{Camera, Projection};
+use super::view::Camera;
 use crate::document::{Block, Cell, PrintedColumn, PrintedTable};
 use crate::gpu::TimingOptions;
 use crate::measured::environment::Environment;
 use crate::measured::spectra::Spectra;
 use crate::project::Project;
-use sums::{Sums, timed};
+use methods::{Lit, Plan};
+use sums::timed;
 
 /// Share of the table's energy that sums at every pixel leave out.
 const LEFT_OUT: f64 = 1e-4;
@@ -48,29 +46,20 @@ pub(super) struct Surface {
     operator: OnceLock<AzimuthalOperator>,
 }
 
-/// What is seen of the surface in one frame, and what it is lit by.
-#[derive(Debug)]
-struct Lit {
-    /// Pixels of the picture, in order, where the surface is met.
-    pixels: Vec<usize>,
-    hits: Vec<Hit>,
-    surroundings: Surroundings,
-}
-
-/// Shades what pixels of the picture show of one frame.
-type HitShader<'a> = Box<dyn Fn(&[usize], &[Hit]) -> Result<Columns, RenderError> + 'a>;
+/// Shades what is met in one frame.
+type HitShader<'a> = Box<dyn Fn(&[Hit]) -> Result<Columns, RenderError> + 'a>;
 
 impl Surface {
-    /// Loads what `scene` names and finds what its pixels show; none for a scene of another kind.
+    /// Loads what `scene` names and finds what its pixels show.
     ///
     /// # Errors
     /// [`RenderError`]: maps or tables that do not load, or a table that cannot be factorised.
-    pub(super) fn prepare(scene: &Scene, project: &Project) -> Result<Option<Self>, RenderError> {
-        let (Projection::Camera(camera), Material::Diffraction(material, convolution)) =
-            (scene.view.projection, &scene.material)
-        else {
-            return Ok(None);
-        };
+    pub(super) fn prepare(
+        scene: &Scene,
+        (material, convolution): (&Diffraction, Convolution),
+        camera: &Camera,
+        project: &Project,
+    ) -> Result<Self, RenderError> {
         let [width, height] = [scene.view.width, scene.view.height];
         let mut environments = Vec::new();
         for light in &scene.lights {
@@ -82,8 +71,7 @@ impl Surface {
         let mut frames = Vec::with_capacity(environments.len());
         for (place, (light, turn_rad, environment)) in environments.iter().enumerate() {
             let map = radiance(light, environment, convolution.map_width)?;
-            let mut lit =
-                Lit::new(&camera, [width, height], scene.geometry.turned(*turn_rad), map)?;
+            let mut lit = Lit::new(camera, [width, height], scene.geometry.turned(*turn_rad), map)?;
             for pixel in &mut lit.pixels {
                 *pixel = (*pixel / width) * across + place * width + *pixel % width;
             }
@@ -92,21 +80,21 @@ impl Surface {
         let spectra = Spectra::load(&project.data().join("spectra"))?;
         let seen = environments.into_iter().map(|(_, _, environment)| environment).collect();
         let methods = scene.approximations.iter().map(|of| of.method.clone());
-        Ok(Some(Self {
+        Ok(Self {
             reference: scene.reference,
             reflectance: material.reflectance,
-            convolution: *convolution,
+            convolution,
             kernels: DiffractionKernels::new(&material.table, convolution.align, &spectra, seen)?,
             frames,
             approximations: methods.map(|method| (method, OnceLock::new())).collect(),
             operator: OnceLock::new(),
-        }))
+        })
     }
 
     /// What an approximation sums, made when it is first asked for.
     fn plan(&self, at: usize) -> Result<&Plan, RenderError> {
-        let missing = RenderError::NoApproximation { at };
-        let (method, plan) = self.approximations.get(at).ok_or(missing)?;
+        let missing = || RenderError::no_approximation(at);
+        let (method, plan) = self.approximations.get(at).ok_or_else(missing)?;
         match plan.get() {
             Some(plan) => Ok(plan),
             None => {
@@ -124,54 +112,54 @@ impl Surface {
 
     /// The cells of the table that sums at every pixel keep.
     fn taps(&self) -> Taps {
-        table_taps(&self.kernels.table).thinned(LEFT_OUT).0
+        table_taps(&self.kernels.table).thinned(LEFT_OUT)
     }
 
-    /// The picture, from one shader per frame; black where nothing is met.
-    fn over<'a>(&'a self, shaders: Vec<HitShader<'a>>) -> Shader<'a> {
-        Box::new(move |range| {
-            let mut picture = vec![vec![0.0_f32; range.len()]; 3];
-            for (lit, shade) in self.frames.iter().zip(&shaders) {
-                let (pixels, hits) = lit.within(&range);
-                if hits.is_empty() {
-                    continue;
-                }
-                let columns = shade(pixels, hits)?.into_iter().zip(self.reflectance);
-                for (channel, (column, reflectance)) in picture.iter_mut().zip(columns) {
-                    for (pixel, value) in pixels.iter().zip(column) {
-                        channel[pixel - range.start] = (f64::from(value) * reflectance) as f32;
-                    }
+    /// Pixels of the picture, from what `shade` says for what a frame shows of them; black where
+    /// nothing is met.
+    fn shaded(
+        &self,
+        range: Range<usize>,
+        shade: impl Fn(usize, &[usize], &[Hit]) -> Result<Columns, RenderError>,
+    ) -> Result<Columns, RenderError> {
+        let mut picture = vec![vec![0.0_f32; range.len()]; 3];
+        for (frame, lit) in self.frames.iter().enumerate() {
+            let (pixels, hits) = lit.within(&range);
+            if hits.is_empty() {
+                continue;
+            }
+            let columns = shade(frame, pixels, hits)?.into_iter().zip(self.reflectance);
+            for (channel, (column, reflectance)) in picture.iter_mut().zip(columns) {
+                for (pixel, value) in pixels.iter().zip(column) {
+                    channel[pixel - range.start] = (f64::from(value) * reflectance) as f32;
                 }
             }
-            Ok(picture)
-        })
+        }
+        Ok(picture)
+    }
+
+    /// The picture, from a shader per frame.
+    fn over<'a>(
+        &'a self,
+        shader: impl FnMut(&'a Lit) -> Result<HitShader<'a>, RenderError>,
+    ) -> Result<Shader<'a>, RenderError> {
+        let shaders = self.frames.iter().map(shader).collect::<Result<Vec<_>, _>>()?;
+        Ok(Box::new(move |range| self.shaded(range, |frame, _, hits| shaders[frame](hits))))
     }
 
     fn first(&self) -> Result<&Lit, RenderError> {
-        self.frames.first().ok_or_else(|| RenderError::Simulation("there is no frame".into()))
+        self.frames.first().ok_or_else(|| RenderError::Unusable("there is no frame".into()))
     }
 }
 
-impl Lit {
-    fn new(
-        camera: &Camera,
-        size: [usize; 2],
-        shape: Geometry,
-        map: SphereMap,
-    ) -> Result<Self, RenderError> {
-        let hits = (0..size[0] * size[1])
-            .filter_map(|pixel| Some((pixel, shape.hit(&camera.ray(size, pixel))?)));
-        let (pixels, hits) = hits.unzip();
-        Ok(Self { pixels, hits, surroundings: Surroundings::new(map, shape.frame())? })
-    }
-
-    /// What pixels of a range show.
-    fn within(&self, range: &Range<usize>) -> (&[usize], &[Hit]) {
-        let place = |pixel: usize| self.pixels.partition_point(|other| *other < pixel);
-        let part = place(range.start)..place(range.end);
-        let hits = self.hits.get(part.clone()).unwrap_or_default();
-        (self.pixels.get(part).unwrap_or_default(), hits)
-    }
+/// Looks a map up in the mirror directions, in the frame of the surface or in that of the world.
+fn looked_up<'a>(
+    lit: &'a Lit,
+    (map, in_object): (SphereMap, bool),
+    backend: Backend<'a>,
+) -> Result<HitShader<'a>, RenderError> {
+    let painter = lookup(&map, backend)?;
+    Ok(Box::new(move |hits| painter.colours(&lit.directions(hits, in_object))))
 }
 
 /// A map of the project by name, or a file.
@@ -200,23 +188,15 @@ fn radiance(
 
 impl Shading for Surface {
     fn exact(&self) -> Result<Shader<'_>, RenderError> {
-        let mut shaders: Vec<HitShader<'_>> = Vec::with_capacity(self.frames.len());
-        let taps = self.taps();
-        for Lit { surroundings, .. } in &self.frames {
-            shaders.push(if self.reference == ReferenceMethod::Full {
-                let map = self.operator().apply(&surroundings.object);
-                let painter = lookup(&map, Backend::Lanes)?;
-                Box::new(move |_, hits| painter.colours(&surroundings.in_object(hits)))
-            } else {
-                let taps = taps.clone();
-                Box::new(move |_, hits| {
-                    let exact = integrals(&surroundings.world, hits, &taps);
-                    let channel = |at: usize| exact.iter().map(|rgb| rgb[at] as f32).collect();
-                    Ok((0..3).map(channel).collect())
-                })
-            });
+        if self.reference == ReferenceMethod::Full {
+            let map = |lit: &Lit| self.operator().apply(&lit.object);
+            return self.over(|lit| looked_up(lit, (map(lit), true), Backend::Lanes));
         }
-        Ok(self.over(shaders))
+        let taps = Arc::new(self.taps());
+        self.over(|lit| {
+            let taps = Arc::clone(&taps);
+            Ok(Box::new(move |hits| Ok(rgb_columns(&integrals(&lit.world, hits, &taps)))))
+        })
     }
 
     fn picture<'a>(
@@ -225,57 +205,39 @@ impl Shading for Surface {
         _: Option<Moved<'_>>,
         backend: Backend<'a>,
     ) -> Result<Shader<'a>, RenderError> {
-        let plan = self.plan(at)?;
-        let mut shaders: Vec<HitShader<'a>> = Vec::with_capacity(self.frames.len());
-        for Lit { surroundings, .. } in &self.frames {
-            shaders.push(match plan {
-                Plan::Sums(taps) => {
-                    let sums = Sums::new(&surroundings.world, taps, backend)?;
-                    Box::new(move |_, hits| sums.at(hits))
-                }
-                plan => {
-                    let straighten = self.convolution.straighten;
-                    let (map, in_object) = surroundings.convolved(plan, straighten, backend)?;
-                    let painter = lookup(&map, backend)?;
-                    Box::new(move |_, hits| {
-                        painter.colours(&match in_object {
-                            true => surroundings.in_object(hits),
-                            false => surroundings.in_world(hits),
-                        })
-                    })
-                }
-            });
+        let straighten = self.convolution.straighten;
+        match self.plan(at)? {
+            Plan::Sums(taps) => self.over(|lit| {
+                let sums = Sums::new(&lit.world, taps, backend)?;
+                Ok(Box::new(move |hits| sums.at(hits)))
+            }),
+            Plan::Passes(passes) => self
+                .over(|lit| looked_up(lit, lit.convolved(passes, straighten, backend)?, backend)),
         }
-        Ok(self.over(shaders))
     }
 
     fn sampler<'a>(&'a self, seed: u64, backend: Backend<'a>) -> Result<Sampler<'a>, RenderError> {
         let taps = self.taps();
         let mut painters = Vec::with_capacity(self.frames.len());
         for lit in &self.frames {
-            let kernel = sampling::kernel(&lit.surroundings.world, &taps, seed)?;
+            let kernel = sampling::kernel(&lit.world, &taps, seed)?;
             painters.push(Painter::new(vec![kernel], backend)?);
         }
         Ok(Box::new(move |range, first| {
-            let shaders = painters.iter().map(|painter| -> HitShader<'_> {
-                Box::new(move |pixels, hits| painter.colours(&sampling::draws(pixels, hits, first)))
-            });
-            self.over(shaders.collect())(range)
+            self.shaded(range, |frame, pixels, hits| {
+                painters[frame].colours(&sampling::draws(pixels, hits, first))
+            })
         }))
-    }
-
-    fn constants(&self, _: usize) -> Vec<String> {
-        Vec::new()
     }
 
     fn timed(&self, at: usize) -> Result<Vec<TimedPass>, RenderError> {
         let lit = self.first()?;
-        self.plan(at)?.timed(&lit.surroundings.object, &lit.hits)
+        self.plan(at)?.timed(&lit.object, &lit.hits)
     }
 
     fn timed_in_full(&self) -> Result<Vec<TimedPass>, RenderError> {
         let lit = self.first()?;
-        let map = &lit.surroundings.object;
+        let map = &lit.object;
         let pass = match self.reference {
             ReferenceMethod::Full => {
                 TimedPass::convolved(std::slice::from_ref(map), &[self.kernels.angular.taps()])
@@ -288,7 +250,7 @@ impl Shading for Surface {
     fn timed_sampler(&self, seed: u64) -> Result<Vec<TimedPass>, RenderError> {
         let lit = self.first()?;
         Ok(vec![TimedPass {
-            kernel: sampling::kernel(&lit.surroundings.world, &self.taps(), seed)?,
+            kernel: sampling::kernel(&lit.world, &self.taps(), seed)?,
             inputs: sampling::draws(&lit.pixels, &lit.hits, 0),
             evaluations: lit.hits.len(),
         }])
@@ -300,8 +262,7 @@ impl Shading for Surface {
     }
 
     fn details(&self) -> Result<Details, RenderError> {
-        let by_angle =
-            angles::by_angle(&self.first()?.surroundings, &self.kernels, self.operator())?;
+        let by_angle = angles::by_angle(&self.first()?.object, &self.kernels, self.operator())?;
         let albedo = self.kernels.angular.albedo();
         let directions_deg = self.kernels.angular.directions.map(|d| d[1].atan2(d[0]).to_degrees());
         let ([first, second], [r, g, b]) = (directions_deg, albedo);

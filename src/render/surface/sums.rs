@@ -1,12 +1,15 @@
-//! Eq. 3 of toisoul2017 at points of a surface, as a sum over the cells of a table.
+//! Eq. 3 of toisoul2017 at points of a surface, as a sum over the cells of a table: in f64, the
+//! reference, and as kernels.
 
-use crate::factor::DirectionalKernel;
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
 use crate::form::DataTable;
 use crate::render::RenderError;
 use crate::render::backend::{Backend, Kernel, Painter};
 use crate::render::geometry::Hit;
 use crate::render::shading::Columns;
-use crate::render::sphere_map::{SphereMap, Taps};
+use crate::render::sphere_map::{self, MOST_TAPS, STILL, SphereMap, Taps, summed};
 use crate::render::times::TimedPass;
 use crate::table::{Grid, centres};
 
@@ -15,8 +18,6 @@ pub(super) const TEXT: &str =
     concat!(include_str!("../sphere_map/sphere_map.wgsl"), "\n", include_str!("surface_sum.wgsl"));
 /// The file of the sum.
 const FILE: &str = "src/render/surface/surface_sum.wgsl";
-/// Most taps of one evaluation.
-const MOST_TAPS: usize = 1024;
 
 /// One tap per cell of a table with channels R, G, B.
 pub fn table_taps(grid: &Grid) -> Taps {
@@ -33,29 +34,45 @@ pub fn table_taps(grid: &Grid) -> Taps {
     taps
 }
 
-/// The taps of kernels along lines.
-pub fn line_taps(kernels: &[DirectionalKernel]) -> Taps {
-    let mut taps = Taps::default();
-    for kernel in kernels {
-        let axis = &kernel.axis;
-        let step = axis.step().abs();
-        for at in 0..axis.count {
-            let s = axis.centre(at);
-            let weight = [0, 1, 2].map(|channel| {
-                let values = kernel.channels.get(channel).map(|(_, values)| values);
-                values.and_then(|values| values.get(at)).map_or(0.0, |value| value * step)
-            });
-            taps.push([s * kernel.direction[0], s * kernel.direction[1], step], weight);
+/// Radiance R, G, B at each hit, for F₀ = 1.
+///
+/// `taps`: displacement along the two directions of a hit, width of the cell, and the table times
+/// the area of the cell. The sum over cells of ((1 + ω_i·ω_o)²/4)/((n·ω_o) μ_i), with the mean of
+/// 1/μ_i over the ring of each cell; what lies beyond the horizon is left out. Bilinear in `map`.
+pub fn integrals(map: &SphereMap, hits: &[Hit], taps: &Taps) -> Vec<[f64; 3]> {
+    hits.par_iter().map(|hit| integral(map, hit, taps)).collect()
+}
+
+fn integral(map: &SphereMap, hit: &Hit, taps: &Taps) -> [f64; 3] {
+    let Hit { frame, reflection, .. } = hit;
+    let [first, beside] = frame.tangents;
+    let mu_o = reflection.dot(&frame.normal).max(1e-4);
+    let mirror = [reflection.dot(&first), reflection.dot(&beside)];
+    let mut sum = [0.0; 3];
+    for ([along, across, cell], weight) in taps.iter() {
+        let (u, v) = (mirror[0] + along, mirror[1] + across);
+        let radius = u.hypot(v);
+        if radius >= 1.0 {
+            continue;
+        }
+        let (inner, outer) = ((radius - 0.5 * cell).max(0.0), (radius + 0.5 * cell).min(1.0));
+        let per_mu = 2.0 / ((1.0 - inner * inner).sqrt() + (1.0 - outer * outer).sqrt());
+        let mu_i = (1.0 - radius * radius).sqrt();
+        let cosine = mu_o * mu_i - mirror[0] * u - mirror[1] * v;
+        let factor = 0.25 * (1.0 + cosine) * (1.0 + cosine) / mu_o * per_mu;
+        let incident = first * u + beside * v + frame.normal * mu_i;
+        let radiance = map.bilinear(incident.into());
+        for ((sum, weight), radiance) in sum.iter_mut().zip(weight).zip(radiance) {
+            *sum += weight * factor * radiance;
         }
     }
-    taps
+    sum
 }
 
 /// A sum over taps under one map, ready for hits.
-pub(super) struct Sums<'d> {
+pub struct Sums<'d> {
     painter: Painter<'d>,
-    taps: usize,
-    per_evaluation: usize,
+    blocks: Vec<[f32; 1]>,
 }
 
 impl<'d> Sums<'d> {
@@ -63,51 +80,18 @@ impl<'d> Sums<'d> {
     ///
     /// # Errors
     /// [`RenderError`] if it does not compile.
-    pub(super) fn new(
-        map: &SphereMap,
-        taps: &Taps,
-        backend: Backend<'d>,
-    ) -> Result<Self, RenderError> {
-        let per_evaluation = taps.count().clamp(1, MOST_TAPS);
-        let kernel = kernel(TEXT, "surface_sum", map, taps, per_evaluation, Vec::new())?;
-        Ok(Self {
-            painter: Painter::new(vec![kernel], backend)?,
-            taps: taps.count(),
-            per_evaluation,
-        })
+    pub fn new(map: &SphereMap, taps: &Taps, backend: Backend<'d>) -> Result<Self, RenderError> {
+        let (kernel, blocks) = sum(map, taps)?;
+        Ok(Self { painter: Painter::new(vec![kernel], backend)?, blocks })
     }
 
-    /// Radiance for F₀ = 1.
+    /// Radiance for F₀ = 1: columns R, G, B.
     ///
     /// # Errors
     /// [`RenderError`] if the device fails.
-    pub(super) fn at(&self, hits: &[Hit]) -> Result<Columns, RenderError> {
-        let mut columns = hit_columns(hits);
-        columns.push(vec![0.0; hits.len()]);
-        let mut sums = vec![vec![0.0_f32; hits.len()]; 3];
-        for first in (0..self.taps).step_by(self.per_evaluation) {
-            if let Some(column) = columns.last_mut() {
-                column.fill(first as f32);
-            }
-            for (sum, column) in sums.iter_mut().zip(self.painter.colours(&columns)?) {
-                sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += value);
-            }
-        }
-        Ok(sums)
+    pub fn at(&self, hits: &[Hit]) -> Result<Columns, RenderError> {
+        summed(&self.painter, &hit_columns(hits), &self.blocks)
     }
-}
-
-/// Radiance at hits lit by `map`, for F₀ = 1: columns R, G, B.
-///
-/// # Errors
-/// [`RenderError`] if the kernel does not compile or the device fails.
-pub fn surface_sums(
-    map: &SphereMap,
-    hits: &[Hit],
-    taps: &Taps,
-    backend: Backend<'_>,
-) -> Result<Columns, RenderError> {
-    Sums::new(map, taps, backend)?.at(hits)
 }
 
 /// The sum over `taps` at `hits` as something to time.
@@ -115,14 +99,15 @@ pub fn surface_sums(
 /// # Errors
 /// [`RenderError`] if the kernel does not parse.
 pub(super) fn timed(map: &SphereMap, hits: &[Hit], taps: &Taps) -> Result<TimedPass, RenderError> {
+    let (kernel, blocks) = sum(map, taps)?;
+    Ok(TimedPass::summed(kernel, &hit_columns(hits), [0.0], blocks.len()))
+}
+
+/// The kernel of a sum, and the first tap of each block that one evaluation takes.
+fn sum(map: &SphereMap, taps: &Taps) -> Result<(Kernel, Vec<[f32; 1]>), RenderError> {
     let per_evaluation = taps.count().clamp(1, MOST_TAPS);
-    let mut inputs = hit_columns(hits);
-    inputs.push(vec![0.0; hits.len()]);
-    Ok(TimedPass {
-        kernel: kernel(TEXT, "surface_sum", map, taps, per_evaluation, Vec::new())?,
-        inputs,
-        evaluations: hits.len() * taps.count().div_ceil(per_evaluation),
-    })
+    let blocks = (0..taps.count()).step_by(per_evaluation).map(|first| [first as f32]).collect();
+    Ok((kernel(TEXT, "surface_sum", map, taps, per_evaluation, Vec::new())?, blocks))
 }
 
 /// A kernel over one map and its taps, and `more` tables.
@@ -137,23 +122,19 @@ pub(super) fn kernel(
     per_evaluation: usize,
     more: Vec<DataTable>,
 ) -> Result<Kernel, RenderError> {
-    let still = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let layer = std::slice::from_ref(map);
-    let text = (text, FILE, function);
-    crate::render::sphere_map::kernel(text, layer, taps, per_evaluation, still, more)
+    let (text, layer) = ((text, FILE, function), std::slice::from_ref(map));
+    sphere_map::kernel(text, layer, taps, per_evaluation, STILL, more)
 }
 
 /// Reflection, normal and first direction of hits, as kernels take them.
 pub(super) fn hit_columns(hits: &[Hit]) -> Columns {
-    let vectors = [
-        |hit: &Hit| hit.reflection,
-        |hit: &Hit| hit.frame.normal,
-        |hit: &Hit| hit.frame.tangents[0],
-    ];
-    vectors
-        .iter()
-        .flat_map(|vector| {
-            (0..3).map(|axis| hits.iter().map(|hit| vector(hit)[axis] as f32).collect())
-        })
-        .collect()
+    let mut columns = columns(hits, |hit| hit.reflection);
+    columns.extend(self::columns(hits, |hit| hit.frame.normal));
+    columns.extend(self::columns(hits, |hit| hit.frame.tangents[0]));
+    columns
+}
+
+/// The three components of a vector of every hit.
+pub(super) fn columns(hits: &[Hit], vector: impl Fn(&Hit) -> Vector3<f64>) -> Columns {
+    (0..3).map(|axis| hits.iter().map(|hit| vector(hit)[axis] as f32).collect()).collect()
 }
