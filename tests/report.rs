@@ -347,7 +347,7 @@ fn text_from_outside_is_escaped() -> Result {
         Section::new(nasty)
             .block(table)
             .block(Figure::new("f", nasty, plot))
-            .block(Block::Code { lang: nasty.into(), text: nasty.into() }),
+            .block(Block::List(vec![nasty.into()])),
     );
     let dir = tempfile::tempdir()?;
     write_site(dir.path(), &[page], &provenance())?;

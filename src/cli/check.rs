@@ -9,7 +9,7 @@ use super::Ending;
 use super::context::Context;
 use super::output;
 use crate::document::text::{self, Layout};
-use crate::document::{Block, Cell, PrintedColumn, PrintedTable, Section, Verdict};
+use crate::document::{Block, Cell, PrintedTable, Section, Verdict};
 use crate::gate::{self, Check, Judgement, Precision, Proofs};
 use crate::gpu;
 use crate::numeric::measured::Measured;
@@ -125,9 +125,9 @@ fn constants(check: &Check) -> Section {
     let mut section = Section::new("Constants");
     if !failed.is_empty() {
         let table = PrintedTable::over("", failed)
-            .column(PrintedColumn::verdict("verdict"), |of| Cell::verdict(of.verdict))
-            .column(PrintedColumn::code("fit"), |of| Cell::text(of.fit.as_str()))
-            .column(PrintedColumn::text("why"), |of| Cell::text(of.detail.as_str()));
+            .verdict("verdict", |of| of.verdict)
+            .code("fit", |of| of.fit.as_str())
+            .text("why", |of| of.detail.as_str());
         section = section.block(table);
     }
     section.paragraph(format!("constants reproduce in {good} of {of} fits"))
@@ -137,18 +137,14 @@ fn proved(proofs: &Proofs) -> Section {
     let step = |step: f64| Cell::text(format!("{:+} %", 100.0 * step));
     let none = |word: &'static str| move || Cell::text(word);
     let table = PrintedTable::over("", &proofs.proofs)
-        .column(PrintedColumn::figures("line"), |of| Cell::count(of.line))
-        .column(PrintedColumn::code("subject"), |of| Cell::text(of.subject.as_str()))
-        .column(PrintedColumn::code("metric"), |of| Cell::text(of.metric.name()))
-        .column(PrintedColumn::code("constant"), |of| Cell::text(of.constant.as_str()))
-        .column(PrintedColumn::figures("trips at"), |of| of.step.map_or_else(none("none"), step))
-        .column(PrintedColumn::figures("measured"), |of| {
-            of.value.map_or_else(none(""), |value| Cell::number(value, 5))
-        })
-        .column(PrintedColumn::figures("limit"), |of| Cell::number(of.limit, 5))
-        .column(PrintedColumn::text("fits alone"), |of| {
-            Cell::text(format!("{} of {}", of.alone, of.of))
-        });
+        .figures("line", |of| of.line)
+        .code("subject", |of| of.subject.as_str())
+        .code("metric", |of| of.metric.name())
+        .code("constant", |of| of.constant.as_str())
+        .figures("trips at", |of| of.step.map_or_else(none("none"), step))
+        .figures("measured", |of| of.value.map_or_else(none(""), |value| Cell::number(value, 5)))
+        .figures("limit", |of| (of.limit, 5))
+        .text("fits alone", |of| format!("{} of {}", of.alone, of.of));
     let mut section = Section::new("Proofs that gates can fail").block(table);
     if proofs.without_device > 0 {
         let count = proofs.without_device;

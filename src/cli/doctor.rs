@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::context::Context;
 use super::{Ending, data};
-use crate::document::{Cell, PrintedColumn, PrintedTable, Section};
+use crate::document::{PrintedTable, Section};
 use crate::gpu;
 
 /// Tools outside that some checks use where they are installed, and what for.
@@ -46,9 +46,9 @@ pub(super) fn run(_: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     lines.extend(TOOLS.iter().map(|(name, flag, use_)| tool(name, flag, use_)));
     context.output.sections(&lines, || {
         let table = PrintedTable::over("", &lines)
-            .column(PrintedColumn::text("subject"), |line| Cell::text(line.subject.as_str()))
-            .column(PrintedColumn::text("state"), |line| Cell::text(line.state))
-            .column(PrintedColumn::text("detail"), |line| Cell::text(line.detail.as_str()));
+            .text("subject", |line| line.subject.as_str())
+            .text("state", |line| line.state)
+            .text("detail", |line| line.detail.as_str());
         vec![Section::default().block(table)]
     })?;
     Ok(Ending::Done)

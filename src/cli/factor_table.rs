@@ -96,8 +96,8 @@ impl Factored<'_> {
         };
         // Rows of the channels of one method at one rank stand together.
         document::PrintedTable::over("", self.rows.chunks(self.table.channels.len().max(1)))
-            .column(PrintedColumn::code("method"), |rows| Cell::text(rows[0].method))
-            .column(PrintedColumn::figures("rank"), |rows| Cell::count(rows[0].rank))
+            .code("method", |rows| rows[0].method)
+            .figures("rank", |rows| rows[0].rank)
             .columns(
                 names(),
                 |(_, name)| PrintedColumn::figures(format!("error {name}")),
@@ -108,7 +108,7 @@ impl Factored<'_> {
                 |(_, name)| PrintedColumn::figures(format!("convolved {name}")),
                 |rows, (at, _)| number(rows.get(*at), |row| row.after_convolution),
             )
-            .column(PrintedColumn::figures("ms"), |rows| Cell::number(rows[0].ms, 3))
+            .figures("ms", |rows| rows[0].ms)
             .table()
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::{Cell, PrintedColumn, PrintedTable, Section, number};
+use crate::document::{Cell, PrintedTable, Section, number};
 use crate::fit::FitResult;
 use crate::fit::outcome::Outcome;
 use crate::report::pages::{constants, family_constants, status};
@@ -20,22 +20,22 @@ pub(super) fn summary(results: &[FitResult]) -> Section {
         }
     };
     let table = PrintedTable::over("", results)
-        .column(PrintedColumn::code("fit"), |result| match result {
+        .code("fit", |result| match result {
             FitResult::Single(outcome) => Cell::text(outcome.name.as_str()),
             FitResult::Family(family) => Cell::text(family.name.as_str()),
         })
-        .column(PrintedColumn::verdict("status"), |result| match result {
+        .verdict("status", |result| match result {
             FitResult::Single(outcome) => status(outcome),
             FitResult::Family(family) => Cell::text(endings(&family.members)),
         })
-        .column(PrintedColumn::figures("free"), |result| {
+        .figures("free", |result| {
             result
                 .outcomes()
                 .first()
                 .map_or_else(|| Cell::text(""), |of| Cell::count(of.free_count()))
         })
-        .column(PrintedColumn::figures("rms (f32)"), |result| Cell::number(shipped(result).0, 4))
-        .column(PrintedColumn::figures("max (f32)"), |result| Cell::number(shipped(result).1, 4));
+        .figures("rms (f32)", |result| (shipped(result).0, 4))
+        .figures("max (f32)", |result| (shipped(result).1, 4));
     Section::default().block(table)
 }
 

@@ -17,9 +17,6 @@ pub struct Plot {
     /// Labels at points, moved aside so that they do not overlap.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub annotations: Vec<Annotation>,
-    /// Limits, as lines across the plot.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub guides: Vec<Guide>,
     /// Whether to draw the frontier through the marked points that no other beats in both x and y
     /// (lower is better).
     pub frontier: bool,
@@ -34,7 +31,6 @@ impl Plot {
             y,
             series: Vec::new(),
             annotations: Vec::new(),
-            guides: Vec::new(),
             frontier: false,
         }
     }
@@ -50,13 +46,6 @@ impl Plot {
     #[must_use]
     pub fn annotate(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {
         self.annotations.push(Annotation { x, y, text: text.into() });
-        self
-    }
-
-    /// The plot with a horizontal line at `y`, named in the legend.
-    #[must_use]
-    pub fn guide_y(mut self, y: f64, name: impl Into<String>) -> Self {
-        self.guides.push(Guide { at: y, name: name.into() });
         self
     }
 
@@ -177,25 +166,10 @@ impl Series {
         Self::with_style(name, SeriesStyle::Markers, points)
     }
 
-    /// Markers joined by a line.
-    pub fn line_markers(
-        name: impl Into<String>,
-        points: impl IntoIterator<Item = (f64, f64)>,
-    ) -> Self {
-        Self::with_style(name, SeriesStyle::LineMarkers, points)
-    }
-
     /// The series, standing out.
     #[must_use]
     pub fn strong(mut self) -> Self {
         self.emphasis = Emphasis::Strong;
-        self
-    }
-
-    /// The series, in the background.
-    #[must_use]
-    pub fn muted(mut self) -> Self {
-        self.emphasis = Emphasis::Muted;
         self
     }
 }
@@ -210,8 +184,6 @@ pub enum SeriesStyle {
     Dashed,
     /// Markers.
     Markers,
-    /// Markers joined by a line.
-    LineMarkers,
 }
 
 /// How much a series stands out.
@@ -222,8 +194,6 @@ pub enum Emphasis {
     Normal,
     /// More: the one that the figure is about.
     Strong,
-    /// Less: context.
-    Muted,
 }
 
 /// A label at a point.
@@ -237,32 +207,12 @@ pub struct Annotation {
     pub text: String,
 }
 
-/// A horizontal line across the plot: a limit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Guide {
-    /// Its y.
-    pub at: f64,
-    /// Name, in the legend.
-    pub name: String,
-}
-
-/// A figure that cannot be drawn.
+/// A figure that holds no plot.
 #[derive(Debug, thiserror::Error)]
-pub enum PlotError {
-    /// A figure holds no plot.
-    #[error("figure {figure}: expected at least one plot, got none")]
-    Empty {
-        /// Its file stem.
-        figure: String,
-    },
-    /// The drawing library refuses.
-    #[error("figure {figure}: {reason}")]
-    Backend {
-        /// Its file stem.
-        figure: String,
-        /// In the library's words.
-        reason: String,
-    },
+#[error("figure {figure}: expected at least one plot, got none")]
+pub struct PlotError {
+    /// Its file stem.
+    pub figure: String,
 }
 
 /// Points kept per series in the JSON.

@@ -2,10 +2,11 @@
 //! each made once.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Arc;
 
 use super::subject::{Instance, Lever, Subject};
-use super::{Domain, Gate, GateError, Metric, Refits, committed};
+use super::{Domain, Gate, GateError, Metric, Refits, ShippedConstants, committed};
 use crate::effect::{Candidate, Effect, Member, Reference, Yardstick};
 use crate::fit::Spec;
 use crate::fit::outcome::Outcome;
@@ -97,17 +98,9 @@ impl<'r> Evidence<'r> {
                 })
                 .collect::<Vec<_>>(),
         };
-        let known =
-            || labelled.iter().map(|(label, ..)| label.as_str()).collect::<Vec<_>>().join(", ");
-        if let Some(wanted) = member
-            && !labelled.iter().any(|(label, ..)| label == wanted)
-        {
-            return Err(GateError::UnknownMember {
-                gate: gate.index,
-                line: gate.line,
-                subject: gate.subject.clone(),
-                known: known(),
-            });
+        let labels: Vec<&str> = labelled.iter().map(|(label, ..)| label.as_str()).collect();
+        if member.is_some_and(|wanted| !labels.contains(&wanted)) {
+            return Err(gate.no_member(&labels.join(", ")));
         }
         let mut instances = Vec::new();
         for (label, candidate, levers) in labelled {
@@ -121,7 +114,23 @@ impl<'r> Evidence<'r> {
             let label = (!label.is_empty()).then_some(label);
             instances.push(Instance { label, candidate, target, levers });
         }
-        Ok(Ok(Subject { instances }))
+        let shipped = match gate.metric {
+            Metric::Drift if instances.len() != 1 => {
+                Err("a family ships no single set of constants; name a member".to_owned())
+            }
+            Metric::Drift => self.shipped(gate).map(Some),
+            _ => Ok(None),
+        };
+        Ok(shipped.map(|shipped| Subject { instances, shipped }))
+    }
+
+    /// The constants in the file of a gate on their drift.
+    fn shipped(&self, gate: &Gate) -> Found<ShippedConstants> {
+        let file = gate.shipped.as_deref().unwrap_or(Path::new(""));
+        let shown = file.display().to_string();
+        let text = std::fs::read_to_string(self.project.root().join(file));
+        let text = text.map_err(|error| format!("{shown}: {error}"))?;
+        Ok(ShippedConstants::read(&shown, &text))
     }
 
     /// The candidates called `name`: the committed result of a spec, where it stands, or a registered
@@ -134,11 +143,8 @@ impl<'r> Evidence<'r> {
         let found = if !name.contains("..") && path.is_file() {
             self.fitted(Spec::read(&path)?)?
         } else {
-            let unknown = || GateError::UnknownSubject {
-                gate: gate.index,
-                line: gate.line,
-                subject: gate.subject.clone(),
-            };
+            let unknown =
+                || gate.unknown(format!("there is no spec and no form `{}`", gate.subject));
             let entry = self.project.registry().form(name).ok_or_else(unknown)?;
             let subject = self.project.subject_of_form(entry)?.ok_or_else(unknown)?;
             let lever = |candidate: Candidate| {

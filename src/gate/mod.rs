@@ -54,7 +54,6 @@ mod budget;
 mod check;
 mod committed;
 mod domain;
-mod drift;
 mod error;
 mod evidence;
 mod file;

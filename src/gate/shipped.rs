@@ -2,6 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::Reached;
+use super::evidence::Found;
+use crate::effect::Candidate;
+use crate::numeric::ulp::ulp_distance_f32;
+
 /// Why a shipped constant cannot be compared.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ShippedError {
@@ -67,6 +72,26 @@ impl ShippedConstants {
                 Err(ShippedError::Ambiguous { file, name, first, second })
             }
         }
+    }
+}
+
+impl ShippedConstants {
+    /// The largest distance over all constants of `candidate`, in ulp of f32; or why it cannot be
+    /// told.
+    pub(super) fn drift(&self, candidate: &Candidate) -> Found<Reached> {
+        let mut farthest = Reached { value: 0.0, at: BTreeMap::new(), of: None, count: 0 };
+        for (parameter, fitted) in candidate.form.parameters().iter().zip(&candidate.constants_f32)
+        {
+            let name = &parameter.name;
+            let there = self.value(name).map_err(|error| error.to_string())?;
+            let distance = f64::from(ulp_distance_f32(there, *fitted));
+            farthest.count += 1;
+            if farthest.of.is_none() || distance > farthest.value {
+                farthest.value = distance;
+                farthest.of = Some(format!("{name} = {there} there, {fitted} fitted"));
+            }
+        }
+        if farthest.count == 0 { Err("the fit has no constants".to_owned()) } else { Ok(farthest) }
     }
 }
 

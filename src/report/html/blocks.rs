@@ -4,7 +4,7 @@ use maud::{Markup, PreEscaped, html};
 
 use super::tables::{table, unfolded};
 use crate::document::plot::PlotError;
-use crate::document::{Block, Figure, Inline, NoticeLevel, Picture, Span};
+use crate::document::{Block, Figure, Inline, Picture, Span};
 use crate::report::plot::{Drawing, draw};
 
 /// Text with its markup.
@@ -42,9 +42,8 @@ pub(super) fn block(
         Block::Table(one) => table(one),
         Block::Figure(one) => figure(one, drawings)?,
         Block::Picture(one) => picture(one),
-        Block::Code { lang, text } => html! { pre data-lang=(lang) { code { (text) } } },
         Block::Notice { level, text } => html! {
-            p class={ "notice " (level_class(*level)) } role="note" {
+            p class={ "notice " (level.word().replace(' ', "-")) } role="note" {
                 strong { (level.word()) } " " (inline(text))
             }
         },
@@ -87,15 +86,6 @@ fn picture(picture: &Picture) -> Markup {
             }
             figcaption { (inline(&picture.caption)) " " a.file href=(file) { "PNG" } }
         }
-    }
-}
-
-fn level_class(level: NoticeLevel) -> &'static str {
-    match level {
-        NoticeLevel::Info => "info",
-        NoticeLevel::Warning => "warning",
-        NoticeLevel::Failure => "failure",
-        NoticeLevel::NotMeasured => "not-measured",
     }
 }
 

@@ -5,7 +5,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use super::blocks::{block, inline};
 use crate::document::plot::PlotError;
 use crate::document::{Colophon, Page};
-use crate::report::plot::{DARK_RULES, Drawing};
+use crate::report::plot::{Drawing, dark_rules};
 
 /// The style sheet of every page.
 const STYLE: &str = include_str!("page.css");
@@ -48,7 +48,7 @@ pub fn render_page(
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content={ "striae " (provenance.version) };
                 title { (page.title) " · striae" }
-                style { (PreEscaped(STYLE)) (PreEscaped(dark_rules())) }
+                style { (PreEscaped(STYLE)) (PreEscaped(on_screens())) }
             }
             body {
                 a.skip href="#content" { "Skip to the content" }
@@ -137,6 +137,6 @@ fn anchor(index: usize, title: &str) -> String {
 }
 
 /// Colours of plots on the dark ground, on screens only: paper is white.
-fn dark_rules() -> String {
-    format!("@media screen and (prefers-color-scheme:dark){{{DARK_RULES}}}\n")
+fn on_screens() -> String {
+    format!("@media screen and (prefers-color-scheme:dark){{{}}}\n", dark_rules())
 }

@@ -51,18 +51,13 @@ fn units(rows: &[(&CandidateStudy, &Accuracy)]) -> String {
 fn table(caption: String, rows: &[(&CandidateStudy, &Accuracy)]) -> PrintedTable {
     let unit = units(rows);
     let of_errors = |title: &str| PrintedColumn::number(title, unit.as_str());
-    let mut table = PrintedTable::over(caption, rows)
-        .column(PrintedColumn::code("fit"), |(fit, _)| Cell::text(bare(&fit.name)));
+    let mut table = PrintedTable::over(caption, rows).code("fit", |(fit, _)| bare(&fit.name));
     if rows.iter().any(|(_, accuracy)| accuracy.yardstick == Yardstick::RelativeL2) {
         let grouped = rows.iter().any(|(_, accuracy)| !accuracy.relative_l2.at.is_empty());
         let title = if grouped { "relative L2, worst group" } else { "relative L2" };
         table = table
-            .column(PrintedColumn::number(title, "1"), |(_, of)| {
-                Cell::number(of.relative_l2.value, 3)
-            })
-            .column(PrintedColumn::text("worst group"), |(_, of)| {
-                Cell::text(place(&of.relative_l2.at))
-            });
+            .number(title, "1", |(_, of)| of.relative_l2.value)
+            .text("worst group", |(_, of)| place(&of.relative_l2.at));
     }
     let largest = |title| of_errors(title).grouped("max |error|");
     table
@@ -72,10 +67,10 @@ fn table(caption: String, rows: &[(&CandidateStudy, &Accuracy)]) -> PrintedTable
         .column(of_errors("RMS, f32"), |(_, of)| Cell::number(of.f32.rms, 4))
         .column(of_errors("bias, f32"), |(_, of)| Cell::number(of.f32.bias, 3))
         .column(of_errors("p99, f32"), |(_, of)| Cell::number(of.f32.p99, 3))
-        .column(PrintedColumn::number("max relative, f32", "1"), |(_, of)| {
+        .number("max relative, f32", "1", |(_, of)| {
             Cell::number_or(of.f32.max_rel, 3, "the target is 0 everywhere")
         })
-        .column(PrintedColumn::text("where (f32)"), |(_, of)| Cell::text(place(&of.f32.max_abs_at)))
+        .text("where (f32)", |(_, of)| place(&of.f32.max_abs_at))
         .table()
 }
 
@@ -95,12 +90,12 @@ pub(super) fn laws_section(evidence: &EffectEvidence<'_>) -> Section {
         "Every law against every fit, in f32, at the points where it is most likely to break.",
         &evidence.study.laws,
     )
-    .column(PrintedColumn::code("fit"), |law| Cell::text(bare(&law.fit)))
-    .column(PrintedColumn::code("law"), |law| Cell::text(law.law.as_str()))
-    .column(PrintedColumn::number("worst violation", "1"), |law| Cell::number(law.violation, 3))
-    .column(PrintedColumn::number("accepted", "1"), |law| Cell::number(law.tolerance, 3))
-    .column(PrintedColumn::verdict("verdict"), verdict)
-    .column(PrintedColumn::text("reason"), |law| match &law.verdict {
+    .code("fit", |law| bare(&law.fit))
+    .code("law", |law| law.law.as_str())
+    .number("worst violation", "1", |law| law.violation)
+    .number("accepted", "1", |law| law.tolerance)
+    .verdict("verdict", verdict)
+    .text("reason", |law| match &law.verdict {
         LawStanding::Known(reason) => Cell::text(reason.as_str()),
         LawStanding::Holds | LawStanding::Violated => Cell::text(""),
     });
@@ -127,8 +122,8 @@ pub(super) fn parity_section(evidence: &EffectEvidence<'_>) -> Section {
         "Distance between the device and the f32 lanes, in units in the last place of the result.",
         found,
     )
-    .column(PrintedColumn::code("fit"), |(fit, _)| Cell::text(*fit))
-    .column(PrintedColumn::number("points", "1"), |(_, parity)| Cell::count(parity.count))
+    .code("fit", |(fit, _)| *fit)
+    .number("points", "1", |(_, parity)| parity.count)
     .columns(
         0..BINS.len(),
         |at| match (*at, BINS[*at]) {
@@ -138,12 +133,8 @@ pub(super) fn parity_section(evidence: &EffectEvidence<'_>) -> Section {
         },
         |(_, parity), at| Cell::count(parity.histogram[*at]),
     )
-    .column(PrintedColumn::number("max", "ulp"), |(_, parity)| {
-        Cell::count(usize::try_from(parity.max_ulp).unwrap_or(usize::MAX))
-    })
-    .column(PrintedColumn::number("max |difference|", "1"), |(_, of)| Cell::number(of.max_abs, 3))
-    .column(PrintedColumn::number("NaN on one side", "1"), |(_, of)| {
-        Cell::count(of.nan_mismatches)
-    });
+    .number("max", "ulp", |(_, parity)| usize::try_from(parity.max_ulp).unwrap_or(usize::MAX))
+    .number("max |difference|", "1", |(_, of)| of.max_abs)
+    .number("NaN on one side", "1", |(_, of)| of.nan_mismatches);
     section.block(table)
 }

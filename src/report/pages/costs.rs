@@ -2,9 +2,7 @@
 
 use super::{EffectEvidence, bare, device_notice, on_device};
 use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{
-    Block, Cell, Figure, Highlight, PrintedColumn, PrintedTable, Section, Verdict, number,
-};
+use crate::document::{Block, Cell, Figure, PrintedColumn, PrintedTable, Section, Verdict, number};
 use crate::effect::{Effect, Yardstick};
 use crate::gpu::{Spread, TimingFigures};
 use crate::numeric::measured::Measured;
@@ -161,27 +159,26 @@ fn table(standings: &[Standing<'_>], costs: &Costs) -> PrintedTable {
          the frontier: no fit to the same reference errs less at no more cost.",
         standings,
     )
-    .column(PrintedColumn::code("fit"), |one| Cell::text(bare(one.fit)))
-    .column(PrintedColumn::text("frontier"), |one| {
-        Cell::text(if one.frontier { "●" } else { "" })
-    })
-    .column(PrintedColumn::text("error, f32"), |one| {
+    .code("fit", |one| bare(one.fit))
+    .text("frontier", |one| if one.frontier { "●" } else { "" })
+    .text("error, f32", |one| {
         let errors = one.error.iter();
         let errors = errors.map(|(region, error)| format!("{} ({region})", number(*error, 3)));
         Cell::text(errors.collect::<Vec<_>>().join(", "))
     })
-    .column(PrintedColumn::number("device", "ns"), timed(|of| Cell::number(of.net_ns.median, 3)))
-    .column(PrintedColumn::text("quartiles [ns]"), timed(|of| quartiles(Some(of.net_ns))))
-    .column(
-        PrintedColumn::number("ratio to baseline", "1"),
+    .number("device", "ns", timed(|of| Cell::number(of.net_ns.median, 3)))
+    .text("quartiles [ns]", timed(|of| quartiles(Some(of.net_ns))))
+    .number(
+        "ratio to baseline",
+        "1",
         timed(|of| {
             Cell::number_or(of.ratio.map(|ratio| ratio.median), 3, "no baseline to refer to")
         }),
     )
-    .column(PrintedColumn::text("quartiles of the ratio"), timed(|of| quartiles(of.ratio)))
-    .column(PrintedColumn::number("f32 lanes", "ns"), |one| Cell::number(one.cost.lanes_f32_ns, 3))
-    .column(PrintedColumn::number("f64 lanes", "ns"), |one| Cell::number(one.cost.lanes_f64_ns, 3))
-    .highlighted(Highlight::Subject, |one| one.fit == one.cost.baseline)
+    .text("quartiles of the ratio", timed(|of| quartiles(of.ratio)))
+    .number("f32 lanes", "ns", |one| one.cost.lanes_f32_ns)
+    .number("f64 lanes", "ns", |one| one.cost.lanes_f64_ns)
+    .subject(|one| one.fit == one.cost.baseline)
     .table()
 }
 
@@ -193,7 +190,7 @@ fn quartiles(of: Option<Spread>) -> Cell {
 fn operations(costs: &Costs) -> PrintedTable {
     let kinds = ["add, multiply", "divide, root", "elementary", "branches", "table reads"];
     PrintedTable::over("Operations in the text.", &costs.forms)
-        .column(PrintedColumn::code("fit"), |cost| Cell::text(bare(&cost.name)))
+        .code("fit", |cost| bare(&cost.name))
         .columns(
             kinds.into_iter().enumerate(),
             |(_, kind)| PrintedColumn::number(*kind, "1"),
@@ -217,8 +214,8 @@ fn cheapest_table(least: &[Cheapest]) -> PrintedTable {
          brackets. Errors in f32 by the yardstick of the region.",
         least,
     )
-    .column(PrintedColumn::text("region"), |of| Cell::text(of.region.as_str()))
-    .column(PrintedColumn::code("baseline"), |of| Cell::text(bare(&of.baseline)))
+    .text("region", |of| of.region.as_str())
+    .code("baseline", |of| bare(&of.baseline))
     .columns(
         LIMITS.into_iter().enumerate(),
         |(_, limit)| PrintedColumn::text(format!("≤ {} %", 100.0 * limit)),
@@ -233,27 +230,25 @@ fn goal_table(verdicts: &[GoalVerdict]) -> PrintedTable {
          there is none) and cost relative to the baseline.",
         verdicts,
     )
-    .column(PrintedColumn::code("fit"), |goal| Cell::text(bare(&goal.fit)))
-    .column(PrintedColumn::text("error, region"), |goal| {
-        Cell::text(format!("{}, {}", goal.yardstick, goal.region))
-    })
-    .column(PrintedColumn::number("asked", "1"), |goal| Cell::number(goal.error_asked, 3))
-    .column(PrintedColumn::number("reached", "1"), |goal| Cell::number(goal.error, 3))
-    .column(PrintedColumn::code("baseline"), |goal| Cell::text(bare(&goal.baseline)))
-    .column(PrintedColumn::number("cost asked", "1"), |goal| Cell::number(goal.cost_asked, 3))
-    .column(PrintedColumn::number("cost", "1"), |goal| on_device(&goal.cost, 3))
-    .column(PrintedColumn::verdict("verdict"), |goal| match &goal.met {
+    .code("fit", |goal| bare(&goal.fit))
+    .text("error, region", |goal| format!("{}, {}", goal.yardstick, goal.region))
+    .number("asked", "1", |goal| goal.error_asked)
+    .number("reached", "1", |goal| goal.error)
+    .code("baseline", |goal| bare(&goal.baseline))
+    .number("cost asked", "1", |goal| goal.cost_asked)
+    .number("cost", "1", |goal| on_device(&goal.cost, 3))
+    .verdict("verdict", |goal| match &goal.met {
         Measured::Value(true) => Cell::verdict_as(Verdict::Pass, "met"),
         Measured::Value(false) => Cell::verdict_as(Verdict::Fail, "not met"),
         Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
     })
-    .column(PrintedColumn::text("why"), |goal| Cell::text(goal.why.as_str()))
+    .text("why", |goal| goal.why.as_str())
     .table()
 }
 
 fn references(costs: &Costs) -> PrintedTable {
     PrintedTable::over("Cost of the references, one core, for scale.", &costs.references)
-        .column(PrintedColumn::code("reference"), |of| Cell::text(of.name.as_str()))
-        .column(PrintedColumn::number("f64", "ns"), |of| Cell::number(of.ns, 3))
+        .code("reference", |of| of.name.as_str())
+        .number("f64", "ns", |of| of.ns)
         .table()
 }

@@ -72,14 +72,14 @@ fn forms_table(family: &FamilyStudy, cost: &[f64]) -> PrintedTable {
          materials and bands: what a constant is known to.",
         forms,
     )
-    .column(PrintedColumn::code("fit"), |(form, _)| Cell::text(bare(&form.fit)))
-    .column(PrintedColumn::number("free constants", "1"), |(form, _)| Cell::count(form.free))
-    .column(PrintedColumn::number("RMS", "1"), |(form, _)| Cell::number(form.rms, 3))
-    .column(PrintedColumn::number("max", "1"), |(form, _)| Cell::number(form.max_abs, 3))
-    .column(PrintedColumn::text("worst member"), |(form, _)| Cell::text(form.max_member.as_str()))
-    .column(PrintedColumn::text("where"), |(form, _)| Cell::text(place(&form.max_at)))
-    .column(PrintedColumn::number("cost", "ns"), |(_, cost)| Cell::number(**cost, 3))
-    .column(PrintedColumn::text("spread of the constants between sources"), |(form, _)| spread(form))
+    .code("fit", |(form, _)| bare(&form.fit))
+    .number("free constants", "1", |(form, _)| form.free)
+    .number("RMS", "1", |(form, _)| form.rms)
+    .number("max", "1", |(form, _)| form.max_abs)
+    .text("worst member", |(form, _)| form.max_member.as_str())
+    .text("where", |(form, _)| place(&form.max_at))
+    .number("cost", "ns", |(_, cost)| **cost)
+    .text("spread of the constants between sources", |(form, _)| spread(form))
     .table()
 }
 
@@ -88,28 +88,26 @@ fn choice_table(choices: &[Choice]) -> PrintedTable {
         "For each material, the cheapest form whose error stays within the spread of its sources.",
         choices,
     )
-    .column(PrintedColumn::text("material"), |of| Cell::text(of.group.as_str()))
-    .column(PrintedColumn::number("spread of the sources, RMS", "1"), |of| {
-        Cell::number_or(of.spread_rms, 3, "one source")
-    })
-    .column(PrintedColumn::code("cheapest within it"), |of| {
+    .text("material", |of| of.group.as_str())
+    .number("spread of the sources, RMS", "1", |of| Cell::number_or(of.spread_rms, 3, "one source"))
+    .code("cheapest within it", |of| {
         let none = if of.spread_rms.is_some() { "none" } else { "–" };
         Cell::text(of.cheapest.as_deref().map_or(none, bare))
     })
-    .column(PrintedColumn::number("its RMS error", "1"), |of| {
+    .number("its RMS error", "1", |of| {
         of.rms.map_or_else(|| Cell::text("–"), |rms| Cell::number(rms, 3))
     })
-    .column(PrintedColumn::text("because"), |of| Cell::text(of.reason.as_str()))
+    .text("because", |of| of.reason.as_str())
     .table()
 }
 
 fn spread_table(family: &FamilyStudy) -> PrintedTable {
     PrintedTable::over("How far the sources of a material are apart.", &family.spreads)
-        .column(PrintedColumn::text("material"), |of| Cell::text(of.group.as_str()))
-        .column(PrintedColumn::text("sources"), |of| Cell::text(of.sources.join(", ")))
-        .column(PrintedColumn::number("RMS difference", "1"), |of| Cell::number(of.rms, 3))
-        .column(PrintedColumn::number("max difference", "1"), |of| Cell::number(of.max_abs, 3))
-        .column(PrintedColumn::text("band of the max"), |of| Cell::text(of.max_band.as_str()))
+        .text("material", |of| of.group.as_str())
+        .text("sources", |of| of.sources.join(", "))
+        .number("RMS difference", "1", |of| of.rms)
+        .number("max difference", "1", |of| of.max_abs)
+        .text("band of the max", |of| of.max_band.as_str())
         .table()
 }
 
@@ -126,7 +124,7 @@ fn group_table(family: &FamilyStudy) -> PrintedTable {
         "RMS error per material, all bands and sources together, f32.",
         groups(family),
     )
-    .column(PrintedColumn::text("material"), |group| Cell::text(*group))
+    .text("material", |group| *group)
     .columns(&family.forms, named, |group, form| Cell::number(group_rms(form, group), 3))
     .table()
 }
@@ -134,7 +132,7 @@ fn group_table(family: &FamilyStudy) -> PrintedTable {
 fn member_table(family: &FamilyStudy) -> PrintedTable {
     let members = family.forms.first().map_or(&[][..], |form| &form.members);
     PrintedTable::over("RMS error per member, f32.", members.iter().enumerate())
-        .column(PrintedColumn::text("member"), |(_, member)| Cell::text(member.label.as_str()))
+        .text("member", |(_, member)| member.label.as_str())
         .columns(&family.forms, named, |(at, _), form| {
             let rms = form.members.get(*at).map(|member| member.residuals.rms);
             Cell::number_or(rms, 3, "no such member")

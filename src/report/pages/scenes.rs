@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::gates;
 use crate::document::plot::{Plot, PlotAxis, Series};
 use crate::document::{
-    Block, Cell, Figure, Inline, NoticeLevel, Page, Picture, PrintedColumn, PrintedTable, Section,
+    Block, Cell, Figure, Inline, NoticeLevel, Page, Picture, PrintedTable, Section,
 };
 use crate::effect::Finding;
 use crate::gate::Judgement;
@@ -124,36 +124,28 @@ fn errors(rendered: &Rendered) -> PrintedTable {
         "Approximations against the reference, over all pixels and channels.",
         &rendered.approximations,
     )
-    .column(PrintedColumn::code("approximation"), |found| Cell::text(found.name.as_str()))
-    .column(PrintedColumn::code("shaded by"), |found| Cell::text(found.method.words()))
-    .column(PrintedColumn::number("relative RMS", "1"), |found| {
-        Cell::number(found.metrics.relative_rms, 4)
-    })
-    .column(PrintedColumn::number("FLIP", "1"), |found| Cell::number(found.metrics.flip, 4))
-    .column(PrintedColumn::number("mean error", "radiance"), |found| {
-        Cell::number(found.metrics.mean, 3)
-    })
-    .column(PrintedColumn::number("max |error|", "radiance"), |found| {
-        Cell::number(found.metrics.max, 4)
-    })
-    .column(PrintedColumn::text("where"), |found| {
+    .code("approximation", |found| found.name.as_str())
+    .code("shaded by", |found| found.method.words())
+    .number("relative RMS", "1", |found| (found.metrics.relative_rms, 4))
+    .number("FLIP", "1", |found| (found.metrics.flip, 4))
+    .number("mean error", "radiance", |found| found.metrics.mean)
+    .number("max |error|", "radiance", |found| (found.metrics.max, 4))
+    .text("where", |found| {
         let ((x, y), channel) = (found.metrics.at, &found.metrics.channel);
         Cell::text(format!("{x}, {y} {channel}"))
     });
     let Measured::Value(times) = &rendered.times else { return table.table() };
-    let mut table = table
-        .column(PrintedColumn::number("a frame", "ms"), |found| Cell::measured(&found.frame_ms, 3));
+    let mut table = table.number("a frame", "ms", |found| Cell::measured(&found.frame_ms, 3));
     if times.full_ms.value().is_some() {
-        table = table.column(PrintedColumn::number("in full, times slower", "1"), |found| {
-            Cell::measured(&found.full_over, 3)
-        });
+        table =
+            table.number("in full, times slower", "1", |found| Cell::measured(&found.full_over, 3));
     }
     if rendered.monte_carlo.is_some() {
         table = table
-            .column(PrintedColumn::number("samples at equal error", "1"), |found| {
+            .number("samples at equal error", "1", |found| {
                 Cell::measured(&found.equal_error.map(|equal| equal.samples), 3)
             })
-            .column(PrintedColumn::number("Monte Carlo, times slower", "1"), |found| {
+            .number("Monte Carlo, times slower", "1", |found| {
                 Cell::measured(&found.equal_error.map(|equal| equal.ratio), 3)
             });
     }
