@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use clap::ColorChoice;
+use clap::{ColorChoice, ValueEnum};
 use serde::Serialize;
 
 pub(super) use crate::document::number as significant;
@@ -76,6 +76,11 @@ impl Output {
             to_stderr(text);
         }
     }
+}
+
+/// The name of a choice on the command line.
+pub(super) fn name<V: ValueEnum>(choice: V) -> String {
+    choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
 /// A section of one paragraph, for what is said in a line.
