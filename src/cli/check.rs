@@ -7,9 +7,9 @@ use clap::{Args, ValueEnum};
 
 use super::Ending;
 use super::context::Context;
-use super::output;
+use super::output::to_stdout;
 use crate::document::text::{self, Layout};
-use crate::document::{Block, Cell, PrintedTable, Section, Verdict};
+use crate::document::{Cell, PrintedTable, Section, Verdict};
 use crate::gate::{self, Check, Judgement, Precision, Proofs};
 use crate::gpu;
 use crate::numeric::measured::Measured;
@@ -63,22 +63,22 @@ enum Format {
 
 /// Judges, prints, and fails if something failed.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
-    let format = if context.output.json() { Format::Json } else { arguments.format };
+    let format = if context.output.json { Format::Json } else { arguments.format };
     if arguments.prove && matches!(format, Format::Junit | Format::Github) {
         bail!("--prove prints tables or JSON; expected --format human or json");
     }
     let gates = arguments.gates.as_deref();
     let check = run_for(gates, context)?.check(gates, arguments.prove)?;
     match format {
-        Format::Human => context.output.sections(&check, || sections(&check, arguments.all))?,
-        Format::Json => {
-            output::to_stdout(&format!("{}\n", serde_json::to_string_pretty(&check)?))?;
+        Format::Json | Format::Human => {
+            let mut output = context.output;
+            output.json = format == Format::Json;
+            output.sections(&check, || sections(&check, arguments.all))?;
         }
-        Format::Junit => output::to_stdout(&gate::junit(&check.gates, &check.constants))?,
+        Format::Junit => to_stdout(&gate::junit(&check.gates, &check.constants))?,
         Format::Github => {
-            let named = arguments.gates.as_ref().map(|path| path.display().to_string());
-            let file = named.as_deref().unwrap_or("fits/gates.toml");
-            output::to_stdout(&gate::annotations(file, &check.gates, &check.constants))?;
+            let file = gates.unwrap_or(Path::new("fits/gates.toml")).display().to_string();
+            to_stdout(&gate::annotations(&file, &check.gates, &check.constants))?;
         }
     }
     Ok(if check.passed() { Ending::Done } else { Ending::GateFailed })
@@ -155,6 +155,5 @@ fn proved(proofs: &Proofs) -> Section {
         return section
             .paragraph("every gate can fail, and every constant has a gate that notices it");
     }
-    let defects = proofs.defects.iter().map(|defect| format!("DEFECT {defect}").into());
-    section.block(Block::List(defects.collect()))
+    section.list(proofs.defects.iter().map(|defect| format!("DEFECT {defect}")))
 }

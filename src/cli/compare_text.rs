@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::compare::Metric;
 use super::output::name;
-use crate::document::{PrintedColumn, PrintedTable, Section, number};
+use crate::document::{Block, PrintedColumn, PrintedTable, Section, number};
 use crate::render::compare::columns::ColumnDifference;
 use crate::render::compare::flip::FlipMap;
 use crate::render::compare::metrics::{Difference, ImageDifference};
@@ -218,13 +218,9 @@ impl Comparison<'_> {
                 Ok(flip) => format!("FLIP {} ({})", number(flip.value, 5), flip.conditions),
                 Err(why) => format!("FLIP not defined: {why}"),
             });
-            if let Some(z) = z {
-                section = section.paragraph(noise(z));
-            }
-            if let Some(scale) = scale {
-                section = section
-                    .paragraph(format!("error map from 0 to {scale} of the reference's RMS"));
-            }
+            let scale = scale.map(|to| format!("error map from 0 to {to} of the reference's RMS"));
+            let more = z.as_ref().map(noise).into_iter().chain(scale);
+            section = section.blocks(more.map(|text| Block::Paragraph(text.into())));
         }
         self.judgements.iter().fold(section, |section, judgement| {
             let verdict = if judgement.passed() { "PASS" } else { "FAIL" };

@@ -96,17 +96,12 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         }
         Named::Candidate(candidate) => of_candidate(&candidate, &points, arguments.precision)?,
     };
-    write(&arguments.output, &points.with(&results)?)?;
-    Ok(Ending::Done)
-}
-
-fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    if path == Path::new("-") {
-        output::to_stdout(&String::from_utf8_lossy(bytes))?;
-    } else {
-        atomic_write(path, bytes)?;
+    let csv = points.with(&results)?;
+    match arguments.output == Path::new("-") {
+        true => output::to_stdout(&String::from_utf8_lossy(&csv))?,
+        false => atomic_write(&arguments.output, &csv)?,
     }
-    Ok(())
+    Ok(Ending::Done)
 }
 
 type Results = Vec<(String, Vec<String>)>;
@@ -116,15 +111,13 @@ fn of_reference(reference: &Reference, points: &Points) -> anyhow::Result<Result
         reference.arguments.iter().map(|a| (a.name.to_owned(), Some(a.unit))).collect();
     let columns = points.columns(&arguments)?;
     let rows = columns.first().map_or(0, Vec::len);
-    let mut values = Vec::with_capacity(rows);
-    for row in 0..rows {
-        let point: Vec<f64> =
-            columns.iter().filter_map(|column| column.get(row).copied()).collect();
-        let value = reference
-            .value(&point)
-            .with_context(|| format!("{}: {}", points.place(row), reference.name))?;
-        values.push(format!("{value:?}"));
-    }
+    let value = |row: usize| {
+        let point: Vec<f64> = columns.iter().map(|column| column[row]).collect();
+        let value = reference.value(&point);
+        let value = value.with_context(|| format!("{}: {}", points.place(row), reference.name))?;
+        Ok(format!("{value:?}"))
+    };
+    let values = (0..rows).map(value).collect::<anyhow::Result<_>>()?;
     Ok(vec![("value".to_owned(), values)])
 }
 

@@ -12,7 +12,7 @@ use crate::table::{Grid, shortest_number};
 /// One method at one rank in one channel.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct Row {
-    pub(super) method: &'static str,
+    pub(super) method: String,
     pub(super) rank: usize,
     pub(super) channel: String,
     /// ‖S − Ŝ‖/‖S‖.
@@ -45,17 +45,11 @@ impl Factored<'_> {
     /// `errors.csv`.
     pub(super) fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record([
-            "method",
-            "rank",
-            "channel",
-            "relative_error",
-            "error_after_convolution",
-            "ms",
-        ])?;
+        let header = "method rank channel relative_error error_after_convolution ms";
+        writer.write_record(header.split(' '))?;
         for row in self.rows {
             writer.write_record([
-                row.method,
+                &row.method,
                 &row.rank.to_string(),
                 &row.channel,
                 &shortest_number(row.relative_error),
@@ -96,7 +90,7 @@ impl Factored<'_> {
         };
         // Rows of the channels of one method at one rank stand together.
         document::PrintedTable::over("", self.rows.chunks(self.table.channels.len().max(1)))
-            .code("method", |rows| rows[0].method)
+            .code("method", |rows| rows[0].method.as_str())
             .figures("rank", |rows| rows[0].rank)
             .columns(
                 names(),
@@ -114,17 +108,6 @@ impl Factored<'_> {
 
     /// For a program.
     pub(super) fn json(&self) -> Value {
-        let spectra: Vec<Value> = self
-            .spectra
-            .iter()
-            .map(|s| {
-                json!({
-                    "channel": s.channel,
-                    "singular_values": s.singular_values,
-                    "relative_errors": s.relative_errors,
-                })
-            })
-            .collect();
         let alignment = self.directions.map(|found| {
             json!({
                 "angles_deg": found.angles_rad.map(f64::to_degrees),
@@ -147,7 +130,7 @@ impl Factored<'_> {
             "table": self.table.origin,
             "output": self.folder.display().to_string(),
             "rows": self.rows,
-            "spectra": spectra,
+            "spectra": self.spectra,
             "alignment": alignment,
             "directional": lines,
         })

@@ -99,8 +99,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         let notes = simulation.notes.iter().map(|note| Block::Paragraph(note.as_str().into()));
         let tables = simulation.tables.iter().map(|table| table.clone().into());
         vec![Section { blocks: notes.chain(tables).collect(), ..Section::default() }]
-    })?;
-    Ok(Ending::Done)
+    })
 }
 
 fn extension(path: &Path) -> String {
@@ -115,8 +114,7 @@ fn list_settings(simulator: &Simulator, context: &Context) -> anyhow::Result<End
             .text("default", |of| of.default)
             .text("description", |of| of.description);
         vec![Section::default().block(table)]
-    })?;
-    Ok(Ending::Done)
+    })
 }
 
 /// The table in false brightness, and the value that is white.

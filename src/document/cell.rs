@@ -1,5 +1,7 @@
 //! The cells of a table: text, numbers, verdicts, and what was not measured.
 
+use std::collections::BTreeMap;
+
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -280,4 +282,11 @@ pub fn number(value: f64, digits: usize) -> String {
     } else {
         plain
     }
+}
+
+/// A place by its coordinates, as in `x = 3.56, y = 1`, with `digits` significant digits.
+#[must_use]
+pub fn place(at: &BTreeMap<String, f64>, digits: usize) -> String {
+    let coordinates = at.iter().map(|(name, value)| format!("{name} = {}", number(*value, digits)));
+    coordinates.collect::<Vec<_>>().join(", ")
 }

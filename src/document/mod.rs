@@ -41,7 +41,7 @@ pub(crate) mod thin;
 
 use serde::{Serialize, Serializer};
 
-pub use cell::{Cell, Value, Verdict, number};
+pub use cell::{Cell, Value, Verdict, number, place};
 pub use inline::{Inline, Span};
 use plot::Plot;
 pub use table::{Align, ColumnKind, PrintedColumn, PrintedTable, Tabled};
@@ -136,10 +136,29 @@ impl Section {
         self
     }
 
+    /// The section with more blocks.
+    #[must_use]
+    pub fn blocks<B: Into<Block>>(mut self, blocks: impl IntoIterator<Item = B>) -> Self {
+        self.blocks.extend(blocks.into_iter().map(Into::into));
+        self
+    }
+
     /// The section with one more paragraph.
     #[must_use]
     pub fn paragraph(self, text: impl Into<Inline>) -> Self {
         self.block(Block::Paragraph(text.into()))
+    }
+
+    /// The section with one more bulleted list.
+    #[must_use]
+    pub fn list<I: Into<Inline>>(self, items: impl IntoIterator<Item = I>) -> Self {
+        self.block(Block::List(items.into_iter().map(Into::into).collect()))
+    }
+
+    /// The section with one more table, shown on demand under `summary`.
+    #[must_use]
+    pub fn details(self, summary: impl Into<Inline>, table: impl Into<Block>) -> Self {
+        self.block(Block::Details { summary: summary.into(), blocks: vec![table.into()] })
     }
 
     /// The section with one more remark that must not be overlooked.
@@ -284,22 +303,13 @@ pub struct Colophon {
     pub adapter: Option<String>,
     /// The command that regenerates the report.
     pub command: String,
-    /// Further facts, in order: name and value.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub facts: Vec<(String, String)>,
 }
 
 impl Colophon {
     /// Every fact in words: name and value, in order.
     #[must_use]
-    pub fn lines(&self) -> Vec<(&str, &str)> {
-        let mut lines = vec![
-            ("striae", self.version.as_str()),
-            ("adapter", shown(&self.adapter)),
-            ("command", self.command.as_str()),
-        ];
-        lines.extend(self.facts.iter().map(|(name, value)| (name.as_str(), value.as_str())));
-        lines
+    pub fn lines(&self) -> [(&str, &str); 3] {
+        [("striae", &self.version), ("adapter", shown(&self.adapter)), ("command", &self.command)]
     }
 }
 

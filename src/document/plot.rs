@@ -42,6 +42,16 @@ impl Plot {
         self
     }
 
+    /// The plot with a marker and its label at every point, and the frontier of them drawn.
+    #[must_use]
+    pub fn with_labelled(mut self, name: &str, points: &[(&str, f64, f64)]) -> Self {
+        self.series.push(Series::markers(name, points.iter().map(|(_, x, y)| (*x, *y))));
+        for (text, x, y) in points {
+            self = self.annotate(*x, *y, *text);
+        }
+        self.with_frontier()
+    }
+
     /// The plot with one more label, at a point in the units of the axes.
     #[must_use]
     pub fn annotate(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {

@@ -14,7 +14,7 @@ use crate::numeric::measured::Measured;
 /// [`GateError`] if a gate names what does not exist or does not fit its subject, or something
 /// that it needs cannot be read or evaluated. A gate that merely cannot be measured as the project
 /// stands fails with the reason; one that lacks a device is not measured.
-pub fn judge(
+pub(super) fn judge(
     gates: &[Gate],
     evidence: &mut Evidence<'_>,
     device: &Measured<Device>,

@@ -55,7 +55,7 @@ pub struct Proofs {
 ///
 /// # Errors
 /// [`GateError`], as for [`super::judge`].
-pub fn prove(
+pub(super) fn prove(
     gates: &[Gate],
     evidence: &mut Evidence<'_>,
     device: &Measured<Device>,

@@ -36,11 +36,11 @@ impl Evidence<'_> {
     /// [`GateError`] if there is no such scene or approximation, or the scene is unusable.
     pub(super) fn scene(&self, gate: &Gate) -> Result<Pictured, GateError> {
         let (name, approximation) = gate.scene().unwrap_or_default();
-        let path = self.project().scene_folder().join(format!("{name}.toml"));
+        let path = self.of.project.scene_folder().join(format!("{name}.toml"));
         if name.contains("..") || !path.is_file() {
             return Err(gate.fault(format!("there is no scene data/scenes/{name}.toml")));
         }
-        let scene = self.scenes().prepared(&path, self.project())?;
+        let scene = self.of.scenes.prepared(&path, self.of.project)?;
         let names: Vec<&str> =
             scene.scene.approximations.iter().map(|of| of.name.as_str()).collect();
         let at = names.iter().position(|name| *name == approximation);

@@ -7,36 +7,9 @@ use super::evidence::Found;
 use crate::effect::Candidate;
 use crate::numeric::ulp::ulp_distance_f32;
 
-/// Why a shipped constant cannot be compared.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum ShippedError {
-    /// The file gives it no value.
-    #[error("{file}: no `{name} = <number>`; the constants there: {known}")]
-    Missing {
-        /// The file.
-        file: String,
-        /// The constant.
-        name: String,
-        /// Names that have a value.
-        known: String,
-    },
-    /// The file gives it several values.
-    #[error("{file}: `{name}` has several values: {first} and {second}")]
-    Ambiguous {
-        /// The file.
-        file: String,
-        /// The constant.
-        name: String,
-        /// First value.
-        first: String,
-        /// Another one.
-        second: String,
-    },
-}
-
 /// The constants of one file: name to every f32 that it is initialised with.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct ShippedConstants {
+pub(super) struct ShippedConstants {
     file: String,
     values: BTreeMap<String, Vec<f32>>,
 }
@@ -45,7 +18,7 @@ impl ShippedConstants {
     /// Reads `override a: f32 = 0.5;`, `const a = -0.5f;`, `const float a = 0.5;`,
     /// `static const float a = 0.5f;` and `#define a 0.5`, comments left out. A name initialised
     /// with anything but a decimal number is not seen, and is then reported as missing.
-    pub fn read(file: &str, text: &str) -> Self {
+    pub(super) fn read(file: &str, text: &str) -> Self {
         let mut values: BTreeMap<String, Vec<f32>> = BTreeMap::new();
         for line in without_comments(text).split([';', '\n', '{', '}', ',']) {
             if let Some((name, value)) = define(line).or_else(|| initialised(line)) {
@@ -55,27 +28,20 @@ impl ShippedConstants {
         Self { file: file.to_owned(), values }
     }
 
-    /// The one value of `name`.
-    ///
-    /// # Errors
-    /// [`ShippedError`] if there is none, or several that differ.
-    pub fn value(&self, name: &str) -> Result<f32, ShippedError> {
-        let (file, name) = (self.file.clone(), name.to_owned());
-        let Some((first, others)) = self.values.get(&name).and_then(|all| all.split_first()) else {
+    /// The one value of `name`; or that there is none, or that there are several that differ.
+    fn value(&self, name: &str) -> Found<f32> {
+        let file = &self.file;
+        let Some((first, others)) = self.values.get(name).and_then(|all| all.split_first()) else {
             let known: Vec<&str> = self.values.keys().map(String::as_str).collect();
-            return Err(ShippedError::Missing { file, name, known: known.join(", ") });
+            let known = known.join(", ");
+            return Err(format!("{file}: no `{name} = <number>`; the constants there: {known}"));
         };
         match others.iter().find(|other| other.to_bits() != first.to_bits()) {
             None => Ok(*first),
-            Some(other) => {
-                let (first, second) = (first.to_string(), other.to_string());
-                Err(ShippedError::Ambiguous { file, name, first, second })
-            }
+            Some(other) => Err(format!("{file}: `{name}` has several values: {first} and {other}")),
         }
     }
-}
 
-impl ShippedConstants {
     /// The largest distance over all constants of `candidate`, in ulp of f32; or why it cannot be
     /// told.
     pub(super) fn drift(&self, candidate: &Candidate) -> Found<Reached> {
@@ -83,7 +49,7 @@ impl ShippedConstants {
         for (parameter, fitted) in candidate.form.parameters().iter().zip(&candidate.constants_f32)
         {
             let name = &parameter.name;
-            let there = self.value(name).map_err(|error| error.to_string())?;
+            let there = self.value(name)?;
             let distance = f64::from(ulp_distance_f32(there, *fitted));
             farthest.count += 1;
             if farthest.of.is_none() || distance > farthest.value {
@@ -163,13 +129,14 @@ mod tests {
         {
             assert_eq!(shipped.value(name), Ok(value), "{name}");
         }
-        assert!(matches!(shipped.value("h"), Err(ShippedError::Missing { .. })));
+        let missing = shipped.value("h").expect_err("it is no number");
+        assert!(missing.starts_with("s: no `h = <number>`"), "{missing}");
     }
 
     #[test]
     fn a_constant_with_two_values_is_refused() {
         let shipped = ShippedConstants::read("s", "const a = 1.0;\nconst a = 2.0;");
-        assert!(matches!(shipped.value("a"), Err(ShippedError::Ambiguous { .. })));
+        assert_eq!(shipped.value("a"), Err("s: `a` has several values: 1 and 2".to_owned()));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::{Gate, Precision};
-use crate::document::{Verdict, number};
+use crate::document::{Verdict, number, place};
 
 /// A number of a fit, and where it was reached.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -23,8 +23,8 @@ pub struct Reached {
 impl Reached {
     /// `x = 3.56, Au.Johnson@R`: where the value was reached; empty if it has no place.
     pub fn place(&self) -> String {
-        let at = self.at.iter().map(|(name, value)| format!("{name} = {}", number(*value, DIGITS)));
-        at.chain(self.of.clone()).collect::<Vec<_>>().join(", ")
+        let at = Some(place(&self.at, DIGITS)).filter(|at| !at.is_empty());
+        at.into_iter().chain(self.of.clone()).collect::<Vec<_>>().join(", ")
     }
 }
 

@@ -210,6 +210,7 @@ impl Project {
         known.extend(self.registry().forms().map(|form| form.name.to_owned()));
         known.extend(specs);
         ProjectError::Unknown {
+            what: "reference, fit or form",
             name: name.to_owned(),
             nearest: nearest(name.trim_start_matches("form:"), known),
         }

@@ -46,7 +46,7 @@ impl Project {
         let all = self.specs()?;
         if let Some(name) = names.iter().find(|name| !all.iter().any(|spec| spec.name == **name)) {
             let nearest = super::nearest(name, all.into_iter().map(|spec| spec.name));
-            return Err(ProjectError::NoSpec { name: name.clone(), nearest });
+            return Err(ProjectError::Unknown { what: "spec", name: name.clone(), nearest });
         }
         Ok(all.into_iter().filter(|spec| names.is_empty() || names.contains(&spec.name)).collect())
     }

@@ -11,7 +11,6 @@ pub(crate) fn provenance() -> Colophon {
         version: "0.1.0".to_owned(),
         adapter: Some("llvmpipe (LLVM 19.1.7, 256 bits), Vulkan".to_owned()),
         command: "striae report -o reports".to_owned(),
-        facts: vec![("seed".to_owned(), "1".to_owned())],
     }
 }
 

@@ -1,7 +1,7 @@
 //! Errors per region and precision, laws, and parity with the device.
 
-use super::{EffectEvidence, bare, device_notice, on_device, place};
-use crate::document::{Block, Cell, NoticeLevel, PrintedColumn, PrintedTable, Section, Verdict};
+use super::{EffectEvidence, bare, device_notice, on_device};
+use crate::document::{Cell, NoticeLevel, PrintedColumn, PrintedTable, Section, Verdict, place};
 use crate::effect::Yardstick;
 use crate::numeric::measured::Measured;
 use crate::validate::accuracy::Accuracy;
@@ -16,25 +16,21 @@ pub(super) fn section(evidence: &EffectEvidence<'_>) -> Section {
          elementary functions; the device evaluates the same text.",
     );
     let section = device_notice(section, &evidence.costs.adapter);
-    let with = |section: Section, caption: String, of: &dyn Fn(&CandidateStudy) -> Found<'_>| {
-        let judged = |fit| Some((fit, of(fit)?));
-        let rows: Vec<_> = evidence.study.candidates.iter().filter_map(judged).collect();
-        if rows.is_empty() { section } else { section.block(table(caption, &rows)) }
+    type Judged = Vec<(String, Accuracy)>;
+    let rows = |judged: fn(&CandidateStudy) -> &Judged, name: &str| {
+        let of = |fit| Some((fit, &judged(fit).iter().find(|(of, _)| of == name)?.1));
+        evidence.study.candidates.iter().filter_map(of).collect::<Vec<_>>()
     };
-    let section = evidence.effect.regions.iter().fold(section, |section, region| {
+    let regions = evidence.effect.regions.iter().map(|region| {
         let caption = format!("Region {}: {}", region.name, region.description);
-        with(section, caption, &|fit| named(&fit.regions, region.name))
+        (caption, rows(|fit| &fit.regions, region.name))
     });
-    evidence.effect.hard_cases.iter().fold(section, |section, set| {
+    let hard_cases = evidence.effect.hard_cases.iter().map(|set| {
         let caption = format!("Hard cases ({}): {}", set.name, set.description);
-        with(section, caption, &|fit| named(&fit.hard_cases, set.name))
-    })
-}
-
-type Found<'a> = Option<&'a Accuracy>;
-
-fn named<'a>(judged: &'a [(String, Accuracy)], name: &str) -> Found<'a> {
-    judged.iter().find(|(of, _)| of == name).map(|(_, accuracy)| accuracy)
+        (caption, rows(|fit| &fit.hard_cases, set.name))
+    });
+    let tables = regions.chain(hard_cases).filter(|(_, rows)| !rows.is_empty());
+    section.blocks(tables.map(|(caption, rows)| table(caption, &rows)))
 }
 
 /// Units of the references that fits are judged by in a table.
@@ -57,7 +53,7 @@ fn table(caption: String, rows: &[(&CandidateStudy, &Accuracy)]) -> PrintedTable
         let title = if grouped { "relative L2, worst group" } else { "relative L2" };
         table = table
             .number(title, "1", |(_, of)| of.relative_l2.value)
-            .text("worst group", |(_, of)| place(&of.relative_l2.at));
+            .text("worst group", |(_, of)| place(&of.relative_l2.at, 4));
     }
     let largest = |title| of_errors(title).grouped("max |error|");
     table
@@ -70,7 +66,7 @@ fn table(caption: String, rows: &[(&CandidateStudy, &Accuracy)]) -> PrintedTable
         .number("max relative, f32", "1", |(_, of)| {
             Cell::number_or(of.f32.max_rel, 3, "the target is 0 everywhere")
         })
-        .text("where (f32)", |(_, of)| place(&of.f32.max_abs_at))
+        .text("where (f32)", |(_, of)| place(&of.f32.max_abs_at, 4))
         .table()
 }
 
@@ -80,7 +76,7 @@ pub(super) fn laws_section(evidence: &EffectEvidence<'_>) -> Section {
         return section.paragraph("No law is stated for this effect.");
     }
     let stated = evidence.effect.laws.iter();
-    let stated = stated.map(|law| format!("`{}`: {}", law.name, law.description).into());
+    let stated = stated.map(|law| format!("`{}`: {}", law.name, law.description));
     let verdict = |law: &&LawVerdict| match &law.verdict {
         LawStanding::Holds => Cell::verdict_as(Verdict::Pass, "holds"),
         LawStanding::Known(_) => Cell::verdict_as(Verdict::Warn, "known violation"),
@@ -99,7 +95,7 @@ pub(super) fn laws_section(evidence: &EffectEvidence<'_>) -> Section {
         LawStanding::Known(reason) => Cell::text(reason.as_str()),
         LawStanding::Holds | LawStanding::Violated => Cell::text(""),
     });
-    section.block(Block::List(stated.collect())).block(table)
+    section.list(stated).block(table)
 }
 
 pub(super) fn parity_section(evidence: &EffectEvidence<'_>) -> Section {

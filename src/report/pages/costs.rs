@@ -1,7 +1,7 @@
 //! Error against cost, with the frontier drawn.
 
 use super::{EffectEvidence, bare, device_notice, on_device};
-use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::plot::{Plot, PlotAxis};
 use crate::document::{Block, Cell, Figure, PrintedColumn, PrintedTable, Section, Verdict, number};
 use crate::effect::{Effect, Yardstick};
 use crate::gpu::{Spread, TimingFigures};
@@ -36,18 +36,13 @@ pub fn cost_section(title: &str, effect: &Effect, study: &Study, costs: &Costs) 
             .paragraph("Costs below are those of the f32 lanes on one core."),
     };
     let answers = groups(costs).into_iter().filter_map(|name| Answers::of(&standings, name));
-    let mut section = section
-        .block(Block::List(answers.map(|answers| answer(&answers).into()).collect()))
-        .block(table(&standings, costs));
-    let least = cheapest(study, costs);
-    if !least.is_empty() {
-        section = section.block(cheapest_table(&least));
-    }
-    let verdicts = goals(effect, study, costs);
-    if !verdicts.is_empty() {
-        section = section.block(goal_table(&verdicts));
-    }
-    section.block(references(costs))
+    let (least, verdicts) = (cheapest(study, costs), goals(effect, study, costs));
+    section
+        .list(answers.map(|answers| answer(&answers)))
+        .block(table(&standings, costs))
+        .blocks((!least.is_empty()).then(|| cheapest_table(&least)))
+        .blocks((!verdicts.is_empty()).then(|| goal_table(&verdicts)))
+        .block(references(costs))
 }
 
 /// What is as cheap as the baseline and better, and what is better and cheapest.
@@ -82,11 +77,7 @@ fn figures(evidence: &EffectEvidence<'_>) -> Vec<Figure> {
         };
         let x = PlotAxis::log(axis, "ns per evaluation");
         let y = PlotAxis::log(format!("{}, f32", yardstick.words()), "1");
-        let marked = points.iter().map(|(_, cost, error)| (*cost, *error));
-        let plot = Plot::new(title, x, y).series(Series::markers("forms", marked)).with_frontier();
-        let plot = points
-            .iter()
-            .fold(plot, |plot, (name, cost, error)| plot.annotate(*cost, *error, bare(name)));
+        let plot = Plot::new(title, x, y).with_labelled("forms", &points);
         let slug = effect.name.replace('_', "-");
         let stem = match number {
             0 => format!("{slug}-cost"),
@@ -123,7 +114,7 @@ fn errors<'a>(evidence: &EffectEvidence<'a>, baseline: &str) -> Points<'a> {
                 forms.find(|form| form.fit == cost.name)?.max_abs
             }
         };
-        Some((cost.name.as_str(), cost.nanoseconds(), error))
+        Some((bare(&cost.name), cost.nanoseconds(), error))
     });
     (points.collect(), yardstick)
 }

@@ -1,8 +1,8 @@
 //! Fits to families of measured tables, and what finer fitting is worth.
 
-use super::{EffectEvidence, bare, place};
+use super::{EffectEvidence, bare};
 use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Block, Cell, Figure, PrintedColumn, PrintedTable, Section, number};
+use crate::document::{Cell, Figure, PrintedColumn, PrintedTable, Section, number, place};
 use crate::effect::{Family, Member};
 use crate::project::Approximated;
 use crate::validate::ValidateError;
@@ -38,10 +38,8 @@ pub(super) fn section(
     {
         section = section.block(figure(evidence, family, registered, members)?);
     }
-    Ok(section.block(Block::Details {
-        summary: "Every member, every form: RMS in f32 on held-out points".into(),
-        blocks: vec![member_table(family).into()],
-    }))
+    let summary = "Every member, every form: RMS in f32 on held-out points";
+    Ok(section.details(summary, member_table(family)))
 }
 
 fn position<'a>(evidence: &EffectEvidence<'a>, name: &str) -> Option<(usize, &'a Family)> {
@@ -77,7 +75,7 @@ fn forms_table(family: &FamilyStudy, cost: &[f64]) -> PrintedTable {
     .number("RMS", "1", |(form, _)| form.rms)
     .number("max", "1", |(form, _)| form.max_abs)
     .text("worst member", |(form, _)| form.max_member.as_str())
-    .text("where", |(form, _)| place(&form.max_at))
+    .text("where", |(form, _)| place(&form.max_at, 4))
     .number("cost", "ns", |(_, cost)| **cost)
     .text("spread of the constants between sources", |(form, _)| spread(form))
     .table()

@@ -1,7 +1,7 @@
 //! What was fitted to what, and the constants.
 
 use super::{EffectEvidence, bare, families};
-use crate::document::{Block, Cell, PrintedColumn, PrintedTable, Section, Verdict};
+use crate::document::{Cell, PrintedColumn, PrintedTable, Section, Verdict};
 use crate::effect::Reference;
 use crate::fit::outcome::{Outcome, Status};
 
@@ -40,17 +40,12 @@ pub(super) fn fitted_section(evidence: &EffectEvidence<'_>) -> Section {
                 "Alternations: how often a minimax fit's error reaches its maximum with alternating sign; \
                  one more than the number of free constants proves the optimum.",
             )
-            .block(Block::Details {
-                summary: "Every constant, as shipped".into(),
-                blocks: vec![constants(outcomes()).into()],
-            });
+            .details("Every constant, as shipped", constants(outcomes()));
     }
     for family in families(evidence) {
         let (name, of) = (&family.name, &family.family);
-        section = section.block(Block::Details {
-            summary: format!("Constants of `{name}` for every member of `{of}`").into(),
-            blocks: vec![family_constants(&family.members).into()],
-        });
+        let summary = format!("Constants of `{name}` for every member of `{of}`");
+        section = section.details(summary, family_constants(&family.members));
     }
     section
 }

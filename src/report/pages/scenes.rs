@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::gates;
-use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::plot::{Plot, PlotAxis};
 use crate::document::{
     Block, Cell, Figure, Inline, NoticeLevel, Page, Picture, PrintedTable, Section,
 };
@@ -45,7 +45,7 @@ pub fn scenes_page(scenes: &[SceneEvidence], gates: &[&Judgement]) -> Result<Pag
     }
     let findings: Vec<Finding> =
         scenes.iter().flat_map(|of| findings(&of.scene.scene, &of.rendered)).collect();
-    Ok(page.section(super::findings::table_section(&findings)).section(gates::section(gates)))
+    Ok(page.section(super::findings::section(&findings)).section(gates::section(gates)))
 }
 
 fn section(scene: &Scene, rendered: &Rendered) -> Result<Section, RenderError> {
@@ -132,7 +132,7 @@ fn errors(rendered: &Rendered) -> PrintedTable {
     .number("max |error|", "radiance", |found| (found.metrics.max, 4))
     .text("where", |found| {
         let ((x, y), channel) = (found.metrics.at, &found.metrics.channel);
-        Cell::text(format!("{x}, {y} {channel}"))
+        format!("{x}, {y} {channel}")
     });
     let Measured::Value(times) = &rendered.times else { return table.table() };
     let mut table = table.number("a frame", "ms", |found| Cell::measured(&found.frame_ms, 3));
@@ -163,15 +163,10 @@ fn frontier(rendered: &Rendered) -> Option<Figure> {
         return None;
     }
     let plot = |title: &str, error: fn(&RenderedApproximation) -> f64| {
-        let points: Vec<(f64, f64)> = timed.iter().map(|(f, ms)| (*ms, error(f))).collect();
-        let mut plot =
-            Plot::new(title, PlotAxis::log("time of a frame", "ms"), PlotAxis::log(title, "1"))
-                .series(Series::markers("approximations", points.iter().copied()))
-                .with_frontier();
-        for ((found, _), (ms, error)) in timed.iter().zip(points) {
-            plot = plot.annotate(ms, error, found.name.as_str());
-        }
-        plot
+        let points = timed.iter().map(|(of, ms)| (of.name.as_str(), *ms, error(of)));
+        let points: Vec<(&str, f64, f64)> = points.collect();
+        Plot::new(title, PlotAxis::log("time of a frame", "ms"), PlotAxis::log(title, "1"))
+            .with_labelled("approximations", &points)
     };
     Some(Figure::grid(
         format!("scene-{}-frontier", rendered.name.replace('_', "-")),

@@ -3,7 +3,8 @@
 use super::canvas::{Canvas, UNITS, dark_rules, escaped};
 use super::frame::Rect;
 use super::legend::{Legend, Swatch};
-use super::panel::{Axes, Margins, Panel, Shown, label_width};
+use super::panel::{Panel, Shown, axes, label_width};
+use super::scale::Span;
 use super::series::{Fineness, Look, Traced};
 use crate::document::Figure;
 use crate::document::plot::{Plot, PlotError, Series};
@@ -145,7 +146,6 @@ fn entries(plots: &[Plot], names: &[&str]) -> Vec<(Swatch, String)> {
 fn panels<'a>(figure: &'a Figure, names: &[&str]) -> Vec<Panel<'a>> {
     let plots = &figure.plots;
     let columns = figure.per_row.clamp(1, 4).min(plots.len());
-    let rows = plots.len().div_ceil(columns);
     let same = |of: fn(&Plot) -> String| {
         let first = plots.first().map(of);
         plots.iter().all(|p| Some(of(p)) == first)
@@ -157,27 +157,23 @@ fn panels<'a>(figure: &'a Figure, names: &[&str]) -> Vec<Panel<'a>> {
         y_label: !same_y || index.is_multiple_of(columns),
         minor_grid: columns == 1,
     };
-    let cell_width = (WIDTH - GUTTER) / columns as f64;
     let area_height = [330.0, 220.0, 170.0, 140.0].get(columns - 1).copied().unwrap_or(140.0);
-    let rough = (cell_width - 90.0).max(60.0);
-    let axes: Vec<_> = plots.iter().map(|p| Axes::new(p, rough, area_height)).collect();
-    let widest = axes.iter().map(|axes| label_width(&axes.y)).fold(0.0, f64::max);
-    let titled = plots.iter().any(|p| !p.title.is_empty());
+    let rough = ((WIDTH - GUTTER) / columns as f64 - 90.0).max(60.0);
+    let axes: Vec<_> = plots.iter().map(|p| axes(p, rough, area_height)).collect();
+    let widest = axes.iter().map(|[_, y]| label_width(y)).fold(0.0, f64::max);
+    let above = if plots.iter().any(|p| !p.title.is_empty()) { 30.0 } else { 12.0 };
     let row_height = |row: usize| {
-        let last = (row * columns..plots.len()).take(columns).any(|i| shown(i).x_label);
-        let margins = Margins::new(widest, titled, Shown { x_label: last, ..shown(0) });
-        margins.top + area_height + margins.bottom
+        let labelled = (row * columns..plots.len()).take(columns).any(|i| shown(i).x_label);
+        above + area_height + if labelled { 42.0 } else { 26.0 }
     };
-    let tops: Vec<f64> = (0..rows).map(|row| (0..row).map(row_height).sum()).collect();
-    let place = |(index, (plot, axes)): (usize, (&'a Plot, Axes))| {
-        // Every column keeps room for the label of the first, so that all areas are equally wide.
-        let margins = Margins::new(widest, titled, Shown { y_label: !same_y, ..shown(index) });
-        let lead = if same_y { 20.0 } else { 0.0 };
-        let width = (WIDTH - GUTTER - lead) / columns as f64;
+    // Every column keeps room for the label of the first, so that all areas are equally wide.
+    let (lead, label) = if same_y { (20.0, 0.0) } else { (0.0, 20.0) };
+    let (width, before) = ((WIDTH - GUTTER - lead) / columns as f64, 12.0 + widest + label);
+    let place = |(index, (plot, axes)): (usize, (&'a Plot, [Span; 2]))| {
         let area = Rect {
-            left: lead + (index % columns) as f64 * width + margins.left,
-            top: tops.get(index / columns).copied().unwrap_or(0.0) + margins.top,
-            width: width - margins.left - margins.right,
+            left: lead + (index % columns) as f64 * width + before,
+            top: (0..index / columns).map(row_height).sum::<f64>() + above,
+            width: width - before - 16.0,
             height: area_height,
         };
         Panel::new(plot, axes, area, shown(index), |series| look(series, names))

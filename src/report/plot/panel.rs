@@ -23,49 +23,32 @@ pub(super) struct Shown {
     pub(super) minor_grid: bool,
 }
 
-/// The axes of a plot, before its place in the figure is known.
-#[derive(Debug)]
-pub(super) struct Axes {
-    pub(super) x: Span,
-    pub(super) y: Span,
-}
-
-impl Axes {
-    /// Axes for a plot area of about `width` by `height` pixels.
-    pub(super) fn new(plot: &Plot, width: f64, height: f64) -> Self {
-        let x = |wanted| {
-            let points = plot.series.iter().flat_map(|s| s.points.iter().map(|p| p.0));
-            let labels = plot.annotations.iter().map(|a| a.x);
-            // Labels beside the outermost points want room.
-            let margin = match (plot.annotations.is_empty(), has_markers(plot)) {
-                (false, _) => 0.12,
-                (true, true) => 0.06,
-                (true, false) => 0.015,
-            };
-            Span::new(&plot.x, points.chain(labels), margin, wanted)
+/// The axes of a plot, x and y, for a plot area of about `width` by `height` pixels.
+pub(super) fn axes(plot: &Plot, width: f64, height: f64) -> [Span; 2] {
+    let marked = has_markers(plot);
+    let x = |wanted| {
+        let points = plot.series.iter().flat_map(|s| s.points.iter().map(|p| p.0));
+        let labels = plot.annotations.iter().map(|a| a.x);
+        // Labels beside the outermost points want room.
+        let margin = match (plot.annotations.is_empty(), marked) {
+            (false, _) => 0.12,
+            (true, true) => 0.06,
+            (true, false) => 0.015,
         };
-        let y = {
-            let points = plot.series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
-            let labels = plot.annotations.iter().map(|a| a.y);
-            let margin = if has_markers(plot) { 0.08 } else { 0.05 };
-            let wanted = steps(height, if height < 250.0 { 32.0 } else { 44.0 });
-            Span::new(&plot.y, points.chain(labels), margin, wanted)
-        };
-        // Fewer ticks until their labels stand apart.
-        let most = steps(width, 80.0);
-        let apart = |span: &Span| {
-            let widths = span.ticks.iter().map(|t| lettering::width(&t.label, TICK) + 10.0);
-            widths.sum::<f64>() <= width
-        };
-        let mut span = x(most);
-        for wanted in (2..most).rev() {
-            if apart(&span) {
-                break;
-            }
-            span = x(wanted);
-        }
-        Self { x: span, y }
-    }
+        Span::new(&plot.x, points.chain(labels), margin, wanted)
+    };
+    // Fewer ticks until their labels stand apart.
+    let apart = |span: &Span| {
+        let widths = span.ticks.iter().map(|t| lettering::width(&t.label, TICK) + 10.0);
+        widths.sum::<f64>() <= width
+    };
+    let fewer = (2..=steps(width, 80.0)).rev();
+    let across = fewer.map(x).find(apart).unwrap_or_else(|| x(2));
+    let points = plot.series.iter().flat_map(|s| s.points.iter().map(|p| p.1));
+    let values = points.chain(plot.annotations.iter().map(|a| a.y));
+    let margin = if marked { 0.08 } else { 0.05 };
+    let wanted = steps(height, if height < 250.0 { 32.0 } else { 44.0 });
+    [across, Span::new(&plot.y, values, margin, wanted)]
 }
 
 /// Room for ticks at one per `pixels`, 2 or more.
@@ -75,27 +58,6 @@ fn steps(length: f64, pixels: f64) -> usize {
 
 fn has_markers(plot: &Plot) -> bool {
     plot.frontier || plot.series.iter().any(|series| series.style == SeriesStyle::Markers)
-}
-
-/// Space around the plot area.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Margins {
-    pub(super) left: f64,
-    pub(super) right: f64,
-    pub(super) top: f64,
-    pub(super) bottom: f64,
-}
-
-impl Margins {
-    /// Margins with tick labels of the y axis `label_width` wide.
-    pub(super) fn new(label_width: f64, titled: bool, shown: Shown) -> Self {
-        Self {
-            left: 12.0 + label_width + if shown.y_label { 20.0 } else { 0.0 },
-            right: 16.0,
-            top: if titled { 30.0 } else { 12.0 },
-            bottom: 22.0 + if shown.x_label { 20.0 } else { 4.0 },
-        }
-    }
 }
 
 /// A plot in its place.
@@ -111,12 +73,12 @@ pub(super) struct Panel<'a> {
 impl<'a> Panel<'a> {
     pub(super) fn new(
         plot: &'a Plot,
-        axes: Axes,
+        [x, y]: [Span; 2],
         area: Rect,
         shown: Shown,
         look: impl Fn(&Series) -> Look,
     ) -> Self {
-        let frame = Frame { area, x: axes.x, y: axes.y };
+        let frame = Frame { area, x, y };
         let traced: Vec<_> = plot.series.iter().map(|s| Traced::new(s, look(s), &frame)).collect();
         let frontier = if plot.frontier {
             let marked = plot.series.iter().filter(|s| s.style == SeriesStyle::Markers);
@@ -125,12 +87,10 @@ impl<'a> Panel<'a> {
         } else {
             Vec::new()
         };
-        let segments =
-            |line: &'_ Vec<(f64, f64)>| line.windows(2).map(|w| (w[0], w[1])).collect::<Vec<_>>();
         let lines = traced.iter().flat_map(|t| &t.lines).chain([&frontier]);
         let obstacles = Obstacles {
             places: traced.iter().flat_map(|t| t.markers(1.0)).collect(),
-            segments: lines.flat_map(segments).collect(),
+            segments: lines.flat_map(|line| line.windows(2).map(|w| (w[0], w[1]))).collect(),
         };
         let texts: Vec<_> = plot
             .annotations
