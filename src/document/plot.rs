@@ -217,14 +217,6 @@ pub struct Annotation {
     pub text: String,
 }
 
-/// A figure that holds no plot.
-#[derive(Debug, thiserror::Error)]
-#[error("figure {figure}: expected at least one plot, got none")]
-pub struct PlotError {
-    /// Its file stem.
-    pub figure: String,
-}
-
 /// Points kept per series in the JSON.
 const POINTS_IN_JSON: usize = 256;
 

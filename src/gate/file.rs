@@ -117,51 +117,36 @@ impl Reading<'_> {
         });
         let domain = domain.transpose()?;
         let limit = *raw.limit.get_ref();
-        if !limit.is_finite() || limit <= 0.0 {
-            let message = format!("expected a finite number > 0, got {limit}");
-            return Err(self.wrong("limit", &raw.limit, message));
-        }
+        let message = format!("expected a finite number > 0, got {limit}");
+        self.ensure(limit.is_finite() && limit > 0.0, "limit", &raw.limit, message)?;
         for (key, number) in [("measured", &raw.measured), ("warn", &raw.warn)] {
-            if let Some(number) = number
-                && !(0.0..=limit).contains(number.get_ref())
-            {
-                let got = number.get_ref();
-                let message = format!("expected a number from 0 to the limit {limit}, got {got}");
-                return Err(self.wrong(key, number, message));
-            }
+            let Some(number) = number else { continue };
+            let got = number.get_ref();
+            let message = format!("expected a number from 0 to the limit {limit}, got {got}");
+            self.ensure((0.0..=limit).contains(got), key, number, message)?;
         }
         let drift = metric == Metric::Drift;
         let of_pictures = subject.starts_with(SCENES);
-        if let Some(domain) = raw.domain.as_ref().filter(|_| drift || of_pictures) {
-            let message = match drift {
-                true => "drift compares constants, over no domain",
-                false => "a scene is judged over all of its pixels",
-            };
-            return Err(self.wrong("domain", domain, message));
+        if let Some(domain) = &raw.domain {
+            let message = "drift compares constants, over no domain";
+            self.ensure(!drift, "domain", domain, message)?;
+            let message = "a scene is judged over all of its pixels";
+            self.ensure(!of_pictures, "domain", domain, message)?;
         }
         let pictured = [Metric::RelL2, Metric::Rms, Metric::MaxAbs, Metric::Bias, Metric::Flip];
-        if of_pictures && !pictured.contains(&metric) {
-            let message = format!("a scene has rel_l2, rms, max_abs, bias and flip, got {metric}");
-            return Err(self.wrong("metric", &raw.metric, message));
-        }
-        if metric == Metric::Flip && !of_pictures {
-            let message = "flip is a metric of scenes, `scenes/name#approximation`";
-            return Err(self.wrong("metric", &raw.metric, message));
-        }
-        if let (Some(text), Precision::F64, true) = (&raw.precision, precision, of_pictures) {
+        let message = format!("a scene has rel_l2, rms, max_abs, bias and flip, got {metric}");
+        self.ensure(!of_pictures || pictured.contains(&metric), "metric", &raw.metric, message)?;
+        let message = "flip is a metric of scenes, `scenes/name#approximation`";
+        self.ensure(of_pictures || metric != Metric::Flip, "metric", &raw.metric, message)?;
+        if let Some(text) = &raw.precision {
             let message = "a picture is made in f32 or on the device";
-            return Err(self.wrong("precision", text, message));
+            self.ensure(!of_pictures || precision != Precision::F64, "precision", text, message)?;
         }
-        match &raw.shipped {
-            None if drift => {
-                let message = "drift needs `shipped = \"file\"` beside it";
-                return Err(self.wrong("metric", &raw.metric, message));
-            }
-            Some(shipped) if !drift => {
-                let message = format!("is for the metric drift only, not for {metric}");
-                return Err(self.wrong("shipped", shipped, message));
-            }
-            _ => {}
+        let message = "drift needs `shipped = \"file\"` beside it";
+        self.ensure(!drift || raw.shipped.is_some(), "metric", &raw.metric, message)?;
+        if let Some(shipped) = &raw.shipped {
+            let message = format!("is for the metric drift only, not for {metric}");
+            self.ensure(drift, "shipped", shipped, message)?;
         }
         Ok(Gate {
             index: self.index,
@@ -179,9 +164,7 @@ impl Reading<'_> {
     }
 
     fn filled(&self, key: &str, text: Spanned<String>) -> Result<String, GateFileError> {
-        if text.get_ref().trim().is_empty() {
-            return Err(self.wrong(key, &text, "is empty"));
-        }
+        self.ensure(!text.get_ref().trim().is_empty(), key, &text, "is empty")?;
         Ok(text.into_inner())
     }
 
@@ -197,6 +180,16 @@ impl Reading<'_> {
             let message = format!("expected {}, got `{}`", names.join(" | "), name.get_ref());
             self.wrong(key, name, message)
         })
+    }
+
+    fn ensure<T>(
+        &self,
+        good: bool,
+        key: &str,
+        at: &Spanned<T>,
+        message: impl Into<String>,
+    ) -> Result<(), GateFileError> {
+        if good { Ok(()) } else { Err(self.wrong(key, at, message)) }
     }
 
     fn wrong<T>(&self, key: &str, at: &Spanned<T>, message: impl Into<String>) -> GateFileError {

@@ -3,7 +3,6 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::tables::{table, unfolded};
-use crate::document::plot::PlotError;
 use crate::document::{Block, Figure, Inline, Picture, Span};
 use crate::report::plot::{Drawing, draw};
 
@@ -32,15 +31,12 @@ pub(super) fn safe(href: &str) -> &str {
 }
 
 /// A block; the drawings of its figures are added to `drawings`.
-pub(super) fn block(
-    block: &Block,
-    drawings: &mut Vec<(String, Drawing)>,
-) -> Result<Markup, PlotError> {
-    Ok(match block {
+pub(super) fn block(block: &Block, drawings: &mut Vec<(String, Drawing)>) -> Markup {
+    match block {
         Block::Paragraph(text) => html! { p { (inline(text)) } },
         Block::List(items) => html! { ul { @for item in items { li { (inline(item)) } } } },
         Block::Table(one) => table(one),
-        Block::Figure(one) => figure(one, drawings)?,
+        Block::Figure(one) => figure(one, drawings),
         Block::Picture(one) => picture(one),
         Block::Notice { level, text } => html! {
             p class={ "notice " (level.word().replace(' ', "-")) } role="note" {
@@ -48,19 +44,19 @@ pub(super) fn block(
             }
         },
         Block::Details { summary, blocks } => {
+            // What was asked for is not folded again.
             let inner = blocks.iter().map(|inner| match inner {
-                // What was asked for is not folded again.
-                Block::Table(table) => Ok(unfolded(table, true)),
+                Block::Table(table) => unfolded(table, true),
                 other => self::block(other, drawings),
             });
-            let inner = inner.collect::<Result<Vec<_>, _>>()?;
+            let inner: Vec<Markup> = inner.collect();
             html! { details { summary { (inline(summary)) } @for one in &inner { (one) } } }
         }
-    })
+    }
 }
 
-fn figure(figure: &Figure, drawings: &mut Vec<(String, Drawing)>) -> Result<Markup, PlotError> {
-    let drawing = draw(figure)?;
+fn figure(figure: &Figure, drawings: &mut Vec<(String, Drawing)>) -> Markup {
+    let drawing = draw(figure);
     let markup = html! {
         figure id=(figure.file_stem) {
             div.scroll tabindex="0" role="region" aria-label={ "figure " (figure.file_stem) } {
@@ -74,7 +70,7 @@ fn figure(figure: &Figure, drawings: &mut Vec<(String, Drawing)>) -> Result<Mark
         }
     };
     drawings.push((figure.file_stem.clone(), drawing));
-    Ok(markup)
+    markup
 }
 
 fn picture(picture: &Picture) -> Markup {

@@ -7,7 +7,7 @@ use super::panel::{Panel, Shown, axes, label_width};
 use super::scale::Span;
 use super::series::{Fineness, Look, Traced};
 use crate::document::Figure;
-use crate::document::plot::{Plot, PlotError, Series};
+use crate::document::plot::{Plot, Series};
 
 /// Width of a figure, in pixels.
 const WIDTH: f64 = 780.0;
@@ -52,13 +52,8 @@ impl Drawing {
 }
 
 /// Draws a figure.
-///
-/// # Errors
-/// [`PlotError`] if it holds no plot.
-pub fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
-    if figure.plots.is_empty() {
-        return Err(PlotError { figure: figure.file_stem.clone() });
-    }
+#[must_use]
+pub fn draw(figure: &Figure) -> Drawing {
     let names = names(&figure.plots);
     let panels = panels(figure, &names);
     let bottom = panels.iter().map(|p| p.frame.area.bottom()).fold(0.0, f64::max);
@@ -87,13 +82,13 @@ pub fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
     panels.iter().for_each(|panel| panel.draw(&mut canvas, fineness));
     legend.draw(&mut canvas, left, top);
     let area = |panel: &Panel<'_>| panel.labels.iter().map(|l| l.area).collect();
-    Ok(Drawing {
+    Drawing {
         svg: wrapped(figure, &canvas.svg, height),
         notes,
         plot_areas: panels.iter().map(|p| p.frame.area).collect(),
         legend: legend_area,
         labels: panels.iter().map(area).collect(),
-    })
+    }
 }
 
 fn total<'a>(series: impl Iterator<Item = &'a Traced>, count: impl Fn(&Traced) -> usize) -> usize {
@@ -145,7 +140,7 @@ fn entries(plots: &[Plot], names: &[&str]) -> Vec<(Swatch, String)> {
 /// The plots in their places, row by row, their areas aligned.
 fn panels<'a>(figure: &'a Figure, names: &[&str]) -> Vec<Panel<'a>> {
     let plots = &figure.plots;
-    let columns = figure.per_row.clamp(1, 4).min(plots.len());
+    let columns = figure.per_row.clamp(1, 4).min(plots.len().max(1));
     let same = |of: fn(&Plot) -> String| {
         let first = plots.first().map(of);
         plots.iter().all(|p| Some(of(p)) == first)
