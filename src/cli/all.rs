@@ -37,9 +37,7 @@ struct State {
     report: String,
     /// Verdicts, as printed.
     verdicts: String,
-    /// Whether every gate passed.
     passed: bool,
-    /// Whether every fit converged.
     converged: bool,
 }
 

@@ -97,8 +97,8 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     });
     context.output.sections(&result, || {
         let notes = simulation.notes.iter().map(|note| Block::Paragraph(note.as_str().into()));
-        let tables = simulation.tables.iter().map(|table| table.clone().into());
-        vec![Section { blocks: notes.chain(tables).collect(), ..Section::default() }]
+        let tables = simulation.tables.iter().cloned();
+        vec![Section::default().blocks(notes).blocks(tables)]
     })
 }
 

@@ -70,6 +70,7 @@ impl Gate {
         let of = ", key subject".to_owned();
         GateError::Mismatch { gate: self.index, line: self.line, of, what }
     }
+
     /// That the subject has no such member.
     pub(super) fn no_member(&self, known: &str) -> GateError {
         self.unknown(format!("`{}` is no member; there are: {known}", self.subject))

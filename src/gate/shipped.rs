@@ -97,13 +97,10 @@ fn define(line: &str) -> Option<(String, f32)> {
 fn initialised(line: &str) -> Option<(String, f32)> {
     let (declared, value) = line.split_once('=')?;
     let declared = declared.split(':').next()?.trim();
-    let start = declared.rfind(|c: char| !is_name(c)).map_or(0, |at| at + 1);
+    let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let start = declared.rfind(|c| !is_name(c)).map_or(0, |at| at + 1);
     let name = declared.get(start..).filter(|name| !name.is_empty())?;
     Some((name.to_owned(), number(value)?))
-}
-
-fn is_name(c: char) -> bool {
-    c.is_ascii_alphanumeric() || c == '_'
 }
 
 /// A decimal literal with an optional sign and suffix.

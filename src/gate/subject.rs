@@ -28,7 +28,6 @@ pub(super) struct Subject {
 pub(super) struct Instance {
     /// Label of a member of a family.
     pub(super) label: Option<String>,
-    /// Form and constants.
     pub(super) candidate: Candidate,
     /// Points and true values.
     pub(super) target: GroundTruth,
@@ -41,7 +40,6 @@ pub(super) struct Instance {
 pub(super) enum Lever {
     /// A constant, with those that are tied to it: places in the order of the form.
     Constant {
-        /// Its name.
         name: String,
         /// Places that move together.
         places: Vec<usize>,

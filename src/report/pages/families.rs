@@ -21,7 +21,8 @@ pub(super) fn section(
 ) -> Result<Section, ValidateError> {
     let description =
         position(evidence, &family.family).map_or("", |(_, family)| family.description);
-    let cost: Vec<f64> = family.forms.iter().map(|form| cost(evidence, &form.fit)).collect();
+    let cost = family.forms.iter().map(|form| evidence.cost(&form.fit).unwrap_or(f64::INFINITY));
+    let cost: Vec<f64> = cost.collect();
     let choices = choices(&family.forms, &family.spreads, &cost);
     let mut section = Section::new(format!("Family: {}", family.family.replace('_', " ")))
         .paragraph(description)
@@ -44,15 +45,6 @@ pub(super) fn section(
 
 fn position<'a>(evidence: &EffectEvidence<'a>, name: &str) -> Option<(usize, &'a Family)> {
     evidence.effect.families.iter().enumerate().find(|(_, family)| family.name == name)
-}
-
-fn cost(evidence: &EffectEvidence<'_>, fit: &str) -> f64 {
-    evidence
-        .costs
-        .forms
-        .iter()
-        .find(|cost| cost.name == fit)
-        .map_or(f64::INFINITY, |cost| cost.nanoseconds())
 }
 
 fn forms_table(family: &FamilyStudy, cost: &[f64]) -> PrintedTable {

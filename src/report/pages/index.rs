@@ -51,8 +51,7 @@ fn errors(effects: &[EffectEvidence<'_>]) -> PrintedTable {
     .text("error", |(.., accuracy)| accuracy.yardstick.words())
     .number("value", "1", |(.., accuracy)| accuracy.headline())
     .number("cost", "ns", |(of, fit, _)| {
-        let cost = of.costs.forms.iter().find(|cost| cost.name == fit.name);
-        Cell::number_or(cost.map(|cost| cost.nanoseconds()), 3, "not timed")
+        Cell::number_or(of.cost(&fit.name), 3, "not timed")
     })
     .table()
 }

@@ -47,6 +47,13 @@ pub struct EffectEvidence<'a> {
     pub gates: &'a [&'a Judgement],
 }
 
+impl EffectEvidence<'_> {
+    /// What a fit costs, in ns; none if it was not timed.
+    fn cost(&self, fit: &str) -> Option<f64> {
+        self.costs.forms.iter().find(|cost| cost.name == fit).map(|cost| cost.nanoseconds())
+    }
+}
+
 /// The page of an effect.
 ///
 /// # Errors

@@ -84,7 +84,6 @@ pub(super) struct Lettering {
     pub(super) size: f64,
     /// Which part of the text stands at its place, as in SVG: `start`, `middle` or `end`.
     pub(super) anchor: &'static str,
-    /// Bold.
     pub(super) bold: bool,
     /// Reading upwards.
     pub(super) upwards: bool,

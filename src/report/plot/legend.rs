@@ -50,7 +50,6 @@ impl Legend {
         (!self.entries.is_empty()).then_some(Rect { left, top, width, height })
     }
 
-    /// Draws it there.
     pub(super) fn draw(&self, on: &mut Canvas, left: f64, top: f64) {
         for (swatch, name, (x, y)) in &self.entries {
             let (x, y) = (left + x, top + y);

@@ -25,7 +25,8 @@ pub(super) struct Shown {
 
 /// The axes of a plot, x and y, for a plot area of about `width` by `height` pixels.
 pub(super) fn axes(plot: &Plot, width: f64, height: f64) -> [Span; 2] {
-    let marked = has_markers(plot);
+    let marked =
+        plot.frontier || plot.series.iter().any(|series| series.style == SeriesStyle::Markers);
     let x = |wanted| {
         let points = plot.series.iter().flat_map(|s| s.points.iter().map(|p| p.0));
         let labels = plot.annotations.iter().map(|a| a.x);
@@ -54,10 +55,6 @@ pub(super) fn axes(plot: &Plot, width: f64, height: f64) -> [Span; 2] {
 /// Room for ticks at one per `pixels`, 2 or more.
 fn steps(length: f64, pixels: f64) -> usize {
     (2_u32..=12).take_while(|n| f64::from(*n) * pixels <= length).last().unwrap_or(2) as usize
-}
-
-fn has_markers(plot: &Plot) -> bool {
-    plot.frontier || plot.series.iter().any(|series| series.style == SeriesStyle::Markers)
 }
 
 /// A plot in its place.
@@ -117,7 +114,6 @@ impl<'a> Panel<'a> {
         notes
     }
 
-    /// Draws it.
     pub(super) fn draw(&self, on: &mut Canvas, fineness: Fineness) {
         self.draw_grid(on);
         if self.frontier.len() > 1 {

@@ -29,7 +29,6 @@ pub(super) struct Span {
     scale: Scale,
     first: f64,
     last: f64,
-    /// Labelled ticks.
     pub(super) ticks: Vec<Tick>,
     /// Values of the ticks between them, on logarithmic axes.
     pub(super) minor: Vec<f64>,
@@ -37,12 +36,9 @@ pub(super) struct Span {
     pub(super) range_ignored: bool,
 }
 
-/// A labelled tick.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tick {
-    /// Its value.
     pub(super) value: f64,
-    /// Its label.
     pub(super) label: String,
 }
 

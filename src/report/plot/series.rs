@@ -126,7 +126,6 @@ impl Traced {
         self.places.iter().filter(|p| taken.insert((key(p.0), key(p.1)))).copied().collect()
     }
 
-    /// Draws it.
     pub(super) fn draw(&self, on: &mut Canvas, Fineness { column, cell, marker }: Fineness) {
         let look = self.look;
         for line in &self.lines {
