@@ -105,15 +105,11 @@ pub(super) fn text(check: &Check) -> String {
 fn sections(check: &Check, all: bool) -> Vec<Section> {
     let gates: Vec<&Judgement> = check.gates.iter().collect();
     let (passed, attention) = by_attention(&gates);
-    let mut section = Section::new("Gates");
-    if !attention.is_empty() {
-        section = section.block(gate_table("", &attention));
-    }
-    if all && !passed.is_empty() {
-        section = section.block(gate_table("Gates that pass:", &passed));
-    }
-    // The line that sums up comes last, where the eye ends.
-    let section = section.paragraph(summary(&gates));
+    let section = Section::new("Gates")
+        .blocks((!attention.is_empty()).then(|| gate_table("", &attention)))
+        .blocks((all && !passed.is_empty()).then(|| gate_table("Gates that pass:", &passed)))
+        // The line that sums up comes last, where the eye ends.
+        .paragraph(summary(&gates));
     let mut sections = vec![section, constants(check)];
     sections.extend(check.proofs.as_ref().map(proved));
     sections
@@ -122,15 +118,15 @@ fn sections(check: &Check, all: bool) -> Vec<Section> {
 fn constants(check: &Check) -> Section {
     let failed: Vec<_> = check.constants.iter().filter(|c| c.verdict == Verdict::Fail).collect();
     let (good, of) = (check.constants.len() - failed.len(), check.constants.len());
-    let mut section = Section::new("Constants");
-    if !failed.is_empty() {
-        let table = PrintedTable::over("", failed)
+    let table = || {
+        PrintedTable::over("", &failed)
             .verdict("verdict", |of| of.verdict)
             .code("fit", |of| of.fit.as_str())
-            .text("why", |of| of.detail.as_str());
-        section = section.block(table);
-    }
-    section.paragraph(format!("constants reproduce in {good} of {of} fits"))
+            .text("why", |of| of.detail.as_str())
+    };
+    Section::new("Constants")
+        .blocks((!failed.is_empty()).then(table))
+        .paragraph(format!("constants reproduce in {good} of {of} fits"))
 }
 
 fn proved(proofs: &Proofs) -> Section {

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::document::{self, Cell, PrintedColumn, Section, number};
+use crate::document::{Block, Cell, PrintedColumn, PrintedTable, Section, number};
 use crate::factor::{Directional, MainDirections, SingularSpectrum};
 use crate::table::{Grid, shortest_number};
 
@@ -74,22 +74,20 @@ impl Factored<'_> {
                  {before} % before, {after} % after"
             ));
         }
-        section = section.block(self.errors());
-        match &self.lines {
-            Some(lines) => section.paragraph(lines.text()),
-            None => section,
-        }
+        section
+            .block(self.errors())
+            .blocks(self.lines.iter().map(|lines| Block::Paragraph(lines.text().into())))
     }
 
     /// A row per method and rank.
-    fn errors(&self) -> document::PrintedTable {
+    fn errors(&self) -> PrintedTable {
         let names = || self.table.channels.iter().map(|c| c.name.as_str()).enumerate();
         let seen = self.rows.iter().any(|row| row.after_convolution.is_some());
         let number = |row: Option<&Row>, of: fn(&Row) -> Option<f64>| {
             Cell::number_or(row.and_then(of), 4, "no environment")
         };
         // Rows of the channels of one method at one rank stand together.
-        document::PrintedTable::over("", self.rows.chunks(self.table.channels.len().max(1)))
+        PrintedTable::over("", self.rows.chunks(self.table.channels.len().max(1)))
             .code("method", |rows| rows[0].method.as_str())
             .figures("rank", |rows| rows[0].rank)
             .columns(
@@ -143,17 +141,12 @@ impl Lines {
     }
 
     fn text(&self) -> String {
-        let angles: Vec<String> = self
-            .directions()
-            .iter()
-            .map(|[x, y]| format!("{}°", number(y.atan2(*x).to_degrees(), 5)))
-            .collect();
-        let lost: Vec<String> = self
-            .all
-            .lost
-            .iter()
-            .map(|(name, part)| format!("{name} {} %", number(100.0 * part, 3)))
-            .collect();
+        let directions = self.directions().into_iter();
+        let angles: Vec<String> =
+            directions.map(|[x, y]| format!("{}°", number(y.atan2(x).to_degrees(), 5))).collect();
+        let lost = self.all.lost.iter();
+        let lost: Vec<String> =
+            lost.map(|(name, part)| format!("{name} {} %", number(100.0 * part, 3))).collect();
         format!("lines at {}; energy on no line: {}", angles.join(" and "), lost.join(", "))
     }
 }

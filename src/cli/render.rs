@@ -95,13 +95,12 @@ fn section(scene: &Scene, rendered: &Rendered) -> Section {
         1 => "One frame".to_owned(),
         frames => format!("{frames} frames"),
     };
-    let mut section = Section::new(scene.name.as_str()).paragraph(format!(
+    let text = format!(
         "{frames} of {width} × {height}. Reference: {}; approximations on {}.",
         rendered.method.words(),
         rendered.backend
-    ));
-    section.blocks.extend(scene_tables(rendered));
-    section
+    );
+    Section::new(scene.name.as_str()).paragraph(text).blocks(scene_tables(rendered))
 }
 
 /// The device, or none where the lanes are to be used.

@@ -303,20 +303,11 @@ fn region(
     name: &str,
     atlas: &Atlas,
 ) -> Result<Arc<Judged>, GateError> {
-    let region = effect
-        .regions
-        .iter()
-        .chain(effect.hard_cases)
-        .find(|region| region.name == name)
-        .ok_or_else(|| {
-            let all = effect.regions.iter().chain(effect.hard_cases);
-            let known: Vec<&str> = all.map(|region| region.name).collect();
-            gate.fault(format!(
-                "domain: {} has no region `{name}`; it has {}",
-                effect.name,
-                known.join(", ")
-            ))
-        })?;
+    let all = || effect.regions.iter().chain(effect.hard_cases);
+    let region = all().find(|region| region.name == name).ok_or_else(|| {
+        let known = all().map(|region| region.name).collect::<Vec<_>>().join(", ");
+        gate.fault(format!("domain: {} has no region `{name}`; it has {known}", effect.name))
+    })?;
     atlas
         .judged(region, reference)?
         .ok_or_else(|| gate.fault(format!("domain: {name} has no points for {}", reference.name)))

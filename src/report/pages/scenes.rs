@@ -50,7 +50,7 @@ pub fn scenes_page(scenes: &[SceneEvidence], gates: &[&Judgement]) -> Result<Pag
 
 fn section(scene: &Scene, rendered: &Rendered) -> Result<Section, RenderError> {
     let exposure = scene.view.exposure;
-    let mut section = Section::new(scene.name.as_str())
+    let section = Section::new(scene.name.as_str())
         .paragraph(Inline::from(scene.description.clone()))
         .paragraph(format!(
             "{}; radiance times {exposure}. Reference: {}; approximations on {}. `striae render \
@@ -64,7 +64,7 @@ fn section(scene: &Scene, rendered: &Rendered) -> Result<Section, RenderError> {
         rendered.approximations.iter().map(|found| found.name.as_str()).collect();
     let (sheet, scale) = comparison(rendered, exposure)?;
     let beside = if rendered.monte_carlo.is_some() { ", Monte Carlo beside it" } else { "" };
-    section = section.block(Picture {
+    let section = section.block(Picture {
         caption: format!(
             "Left, from top to bottom: reference{beside}, {}. Right: the error of each relative to the \
              root mean square of the reference, black for 0 to pale for {scale} and above.",
@@ -75,8 +75,7 @@ fn section(scene: &Scene, rendered: &Rendered) -> Result<Section, RenderError> {
         alt: format!("{}: the reference above its approximations, and their errors", scene.name),
         png: sheet.png(exposure.log2())?,
     });
-    section.blocks.extend(scene_tables(rendered));
-    Ok(section)
+    Ok(section.blocks(scene_tables(rendered)))
 }
 
 /// What the pixels of a scene show.
