@@ -14,7 +14,7 @@ use crate::effect::{Candidate, ConstantsOf};
 use crate::fit::Spec;
 use crate::fit::outcome::{Outcome, Residuals};
 use crate::form::emit::{Emitted, Language, emit};
-use crate::project::{Named, Project};
+use crate::project::Project;
 use crate::table::store::atomic_write;
 
 const MORE: &str = "\
@@ -70,12 +70,10 @@ impl From<Lang> for Language {
 /// Bakes and writes.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     let project = context.project_or_here();
-    let candidate = match project.named(&arguments.name)? {
-        Named::Candidate(candidate) => candidate,
-        Named::Reference(reference) => {
-            bail!("{} is a reference, which has no WGSL; name a fit of it", reference.name)
-        }
-    };
+    if let Some((_, reference)) = project.registry().reference(&arguments.name) {
+        bail!("{} is a reference, which has no WGSL; name a fit of it", reference.name);
+    }
+    let candidate = project.candidate(&arguments.name)?;
     let parameters = candidate.form.parameters().iter().map(|parameter| parameter.name.clone());
     let values: BTreeMap<String, f32> =
         parameters.zip(candidate.constants_f32.iter().copied()).collect();

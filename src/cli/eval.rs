@@ -11,7 +11,6 @@ use super::{Ending, output};
 use crate::effect::{Candidate, Reference};
 use crate::form::Input;
 use crate::gpu::Device;
-use crate::project::Named;
 use crate::table::store::atomic_write;
 
 const MORE: &str = "\
@@ -76,27 +75,24 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         None => arguments.name.clone(),
     };
     let project = context.project_or_here();
-    let subject = match project.registry().reference(&name) {
-        Some((_, reference)) => Named::Reference(reference),
-        None => {
-            let set = arguments.set.iter().cloned().collect();
-            Named::Candidate(Box::new(project.candidate_with(&name, &set)?))
-        }
-    };
-    let points = Points::read(&arguments.input)?;
-    let results = match subject {
-        Named::Reference(reference) => {
+    let csv = match project.registry().reference(&name) {
+        Some((_, reference)) => {
             if let Some((name, _)) = arguments.set.first() {
                 bail!("--set {name}: the reference {} has no constants", reference.name);
             }
             if arguments.precision != Precision::F64 {
                 bail!("--precision: the reference {} is evaluated in f64 only", reference.name);
             }
-            of_reference(reference, &points)?
+            let points = Points::read(&arguments.input)?;
+            points.with(&of_reference(reference, &points)?)?
         }
-        Named::Candidate(candidate) => of_candidate(&candidate, &points, arguments.precision)?,
+        None => {
+            let set = arguments.set.iter().cloned().collect();
+            let candidate = project.candidate_with(&name, &set)?;
+            let points = Points::read(&arguments.input)?;
+            points.with(&of_candidate(&candidate, &points, arguments.precision)?)?
+        }
     };
-    let csv = points.with(&results)?;
     match arguments.output == Path::new("-") {
         true => output::to_stdout(&String::from_utf8_lossy(&csv))?,
         false => atomic_write(&arguments.output, &csv)?,

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 
 pub use error::ProjectError;
 pub use fingerprint::Fingerprints;
-pub use names::{Named, nearest};
+pub use names::nearest;
 pub use specs::SpecFile;
 pub(crate) use specs::entries;
 pub use subject::{Approximated, Fitted, Subject};

@@ -4,32 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::{Project, ProjectError};
-use crate::effect::{Candidate, ConstantsOf, FormEntry, Reference};
+use crate::effect::{Candidate, ConstantsOf, FormEntry};
 use crate::fit::FitResult;
 use crate::fit::outcome::Outcome;
 use crate::form::Form;
 
-/// What a name stands for.
-#[derive(Debug)]
-pub enum Named {
-    /// An exact quantity.
-    Reference(&'static Reference),
-    /// A form with its constants.
-    Candidate(Box<Candidate>),
-}
-
 impl Project {
-    /// What `name` stands for: a reference, or a candidate by any of its names ([`Self::candidate`]).
-    ///
-    /// # Errors
-    /// As [`Self::candidate`].
-    pub fn named(&self, name: &str) -> Result<Named, ProjectError> {
-        match self.registry().reference(name) {
-            Some((_, reference)) => Ok(Named::Reference(reference)),
-            None => Ok(Named::Candidate(Box::new(self.candidate(name)?))),
-        }
-    }
-
     /// The candidate called `name`:
     ///
     /// | name | form and constants |

@@ -25,21 +25,16 @@ pub(super) fn attention_section(title: &str, gates: &[&Judgement]) -> Section {
         Some(Verdict::NotMeasured) => NoticeLevel::NotMeasured,
         Some(Verdict::Pass) | None => NoticeLevel::Info,
     };
-    let section = section.notice(level, summary(gates));
-    if attention.is_empty() {
-        return section;
-    }
     let caption = "Gates that failed, were not measured, or are close to their limit.";
-    section.block(table(caption, &attention))
+    section
+        .notice(level, summary(gates))
+        .blocks((!attention.is_empty()).then(|| table(caption, &attention)))
 }
 
 /// The gates of a page: what needs attention, then all of them.
 pub(super) fn section(gates: &[&Judgement]) -> Section {
-    let section = attention_section("Gates", gates);
-    if gates.is_empty() {
-        return section;
-    }
-    section.block(table("Every budget of `fits/gates.toml` on what this page shows.", gates))
+    let caption = "Every budget of `fits/gates.toml` on what this page shows.";
+    attention_section("Gates", gates).blocks((!gates.is_empty()).then(|| table(caption, gates)))
 }
 
 /// `2 gates: 2 passed, 0 of them with a warning, 0 not measured, 0 failed`.
