@@ -364,8 +364,11 @@ fn short_rows_show_what_they_lack_and_empty_tables_say_so() -> Result {
     let mut short = PrintedTable::new("short", columns);
     short.push(vec![Cell::text("x")]);
     assert_eq!(short.rows()[0][1], Cell::missing("no value given"));
-    assert!(text::table(&short, Layout::default()).contains("g: b [1]"));
-    assert!(text::table(&empty, Layout::default()).contains("nothing to show"));
+    let plain = |table: &PrintedTable| {
+        text::sections(&[Section::default().block(table.clone())], Layout::default())
+    };
+    assert!(plain(&short).contains("g: b [1]"));
+    assert!(plain(&empty).contains("nothing to show"));
     let page = Page::new("p", "t", "s").section(Section::new("s").block(empty).block(short));
     let dir = tempfile::tempdir()?;
     write_site(dir.path(), &[page], &provenance())?;

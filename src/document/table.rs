@@ -37,13 +37,6 @@ impl PrintedTable {
         Tabled { table: Self { caption: caption.into(), columns: Vec::new(), rows }, records }
     }
 
-    /// The table with more rows.
-    #[must_use]
-    pub fn with_rows(mut self, rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
-        rows.into_iter().for_each(|row| self.push(row));
-        self
-    }
-
     /// A table of words and numbers: title and unit per column, an empty unit for words.
     pub fn of_rows<T: Into<String>>(
         caption: impl Into<Inline>,
@@ -54,7 +47,9 @@ impl PrintedTable {
             "" => PrintedColumn::text(title),
             unit => PrintedColumn::number(title, unit),
         });
-        Self::new(caption, columns.collect()).with_rows(rows)
+        let mut table = Self::new(caption, columns.collect());
+        rows.into_iter().for_each(|row| table.push(row));
+        table
     }
 
     /// Rows, in order; each has one cell per column.

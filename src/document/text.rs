@@ -40,14 +40,6 @@ pub fn sections(sections: &[Section], layout: Layout) -> String {
     printer.out
 }
 
-/// A table with its caption.
-#[must_use]
-pub fn table(table: &PrintedTable, layout: Layout) -> String {
-    let mut printer = Printer { layout, out: String::new() };
-    printer.table(table);
-    printer.out
-}
-
 /// The report: every page, one after the other, with the provenance at the end.
 #[must_use]
 pub fn report(pages: &[Page], provenance: &Colophon) -> String {
