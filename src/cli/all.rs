@@ -7,7 +7,7 @@ use super::context::Context;
 use super::{Ending, check, fit, report};
 use crate::fit::Spec;
 use crate::numeric::measured::Measured;
-use crate::project::Fingerprints;
+use crate::project::{Fingerprints, SpecFile};
 use crate::run::Job;
 use crate::table::store::atomic_write;
 
@@ -37,9 +37,7 @@ struct State {
     report: String,
     /// Verdicts, as printed.
     verdicts: String,
-    /// Whether every gate passed.
     passed: bool,
-    /// Whether every fit converged.
     converged: bool,
 }
 
@@ -47,15 +45,10 @@ struct State {
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     let project = context.project()?;
     let path = project.report().join("state.json");
-    let mut state: State = if arguments.force {
-        State::default()
-    } else {
-        // A state that cannot be read is one that says nothing: everything is done again.
-        std::fs::read_to_string(&path)
-            .ok()
-            .and_then(|text| serde_json::from_str(&text).ok())
-            .unwrap_or_default()
-    };
+    // A state that cannot be read is one that says nothing: everything is done again.
+    let known = std::fs::read_to_string(&path).ok().filter(|_| !arguments.force);
+    let mut state: State =
+        known.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
     let run = context.run()?;
     let adapter = match &run.device {
         Measured::Value(device) => device.description().to_string(),
@@ -63,37 +56,28 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     };
     let fingerprints = Fingerprints::new(project)?;
 
-    let mut jobs = Vec::new();
-    let files = project.specs()?;
-    let mut sources = Vec::new();
-    for file in &files {
-        let spec = Spec::read(&file.path)?;
-        if state.fits.get(&file.name) != Some(&fingerprints.of_fit(file, &spec, project)) {
-            jobs.push(Job { spec: spec.clone(), result: file.result() });
-        }
-        sources.push((file, spec));
-    }
+    let files = project.specs()?.into_iter();
+    let sources = files.map(|file| Ok((Spec::read(&file.path)?, file)));
+    let sources = sources.collect::<anyhow::Result<Vec<(Spec, SpecFile)>>>()?;
+    let print = |(spec, file): &(Spec, SpecFile)| fingerprints.of_fit(file, spec, project);
+    let changed = |of: &&(Spec, SpecFile)| state.fits.get(&of.1.name) != Some(&print(of));
+    let (changed, same): (Vec<_>, Vec<_>) = sources.iter().partition(changed);
     // A fit whose source is fitted again is fitted again too.
-    let again: Vec<String> = jobs.iter().map(|job| job.spec.name.clone()).collect();
-    for (file, spec) in &sources {
-        let stale = spec.constants.iter().any(|name| again.contains(name));
-        if stale && !again.contains(&spec.name) {
-            jobs.push(Job { spec: spec.clone(), result: file.result() });
-        }
-    }
+    let stale = |name: &String| changed.iter().any(|(spec, _)| spec.name == *name);
+    let dependent = same.into_iter().filter(|(spec, _)| spec.constants.iter().any(stale));
+    let again = changed.iter().copied().chain(dependent);
+    let jobs: Vec<Job> =
+        again.map(|(spec, file)| Job { spec: spec.clone(), result: file.result() }).collect();
     let fitted = fit::fit(&jobs, &run.fits, context)?;
-    context.output.note(&format!("fit: {} of {} specs", jobs.len(), files.len()));
-    state.fits = sources
-        .iter()
-        .map(|(file, spec)| (file.name.clone(), fingerprints.of_fit(file, spec, project)))
-        .collect();
+    context.output.note(&format!("fit: {} of {} specs", jobs.len(), sources.len()));
+    state.fits = sources.iter().map(|of| (of.1.name.clone(), print(of))).collect();
     let unchanged = jobs.is_empty()
         && state.report == fingerprints.of_report(&adapter, &state.fits, project)?;
     if unchanged {
         context.output.note("report: unchanged");
     } else {
-        state.converged =
-            fit::ending(&fitted) == Ending::Done && (state.converged || jobs.len() == files.len());
+        state.converged = fit::ending(&fitted) == Ending::Done
+            && (state.converged || jobs.len() == sources.len());
         let check = run.check(None, false)?;
         let written = report::write(&project.report(), &run, &check, context)?;
         let folder = project.shown(&project.report());

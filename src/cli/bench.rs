@@ -77,6 +77,5 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     context.output.sections(&benches, || {
         let section = |of: &Studied| cost_section(of.effect.name, of.effect, &of.study, &of.costs);
         studied.iter().map(section).collect()
-    })?;
-    Ok(Ending::Done)
+    })
 }

@@ -7,9 +7,9 @@ use clap::{Args, ValueEnum};
 
 use super::Ending;
 use super::context::Context;
-use super::output;
+use super::output::to_stdout;
 use crate::document::text::{self, Layout};
-use crate::document::{Block, Cell, PrintedColumn, PrintedTable, Section, Verdict};
+use crate::document::{Cell, PrintedTable, Section, Verdict};
 use crate::gate::{self, Check, Judgement, Precision, Proofs};
 use crate::gpu;
 use crate::numeric::measured::Measured;
@@ -63,22 +63,22 @@ enum Format {
 
 /// Judges, prints, and fails if something failed.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
-    let format = if context.output.json() { Format::Json } else { arguments.format };
+    let format = if context.output.json { Format::Json } else { arguments.format };
     if arguments.prove && matches!(format, Format::Junit | Format::Github) {
         bail!("--prove prints tables or JSON; expected --format human or json");
     }
     let gates = arguments.gates.as_deref();
     let check = run_for(gates, context)?.check(gates, arguments.prove)?;
     match format {
-        Format::Human => context.output.sections(&check, || sections(&check, arguments.all))?,
-        Format::Json => {
-            output::to_stdout(&format!("{}\n", serde_json::to_string_pretty(&check)?))?;
+        Format::Json | Format::Human => {
+            let mut output = context.output;
+            output.json = format == Format::Json;
+            output.sections(&check, || sections(&check, arguments.all))?;
         }
-        Format::Junit => output::to_stdout(&gate::junit(&check.gates, &check.constants))?,
+        Format::Junit => to_stdout(&gate::junit(&check.gates, &check.constants))?,
         Format::Github => {
-            let named = arguments.gates.as_ref().map(|path| path.display().to_string());
-            let file = named.as_deref().unwrap_or("fits/gates.toml");
-            output::to_stdout(&gate::annotations(file, &check.gates, &check.constants))?;
+            let file = gates.unwrap_or(Path::new("fits/gates.toml")).display().to_string();
+            to_stdout(&gate::annotations(&file, &check.gates, &check.constants))?;
         }
     }
     Ok(if check.passed() { Ending::Done } else { Ending::GateFailed })
@@ -105,15 +105,11 @@ pub(super) fn text(check: &Check) -> String {
 fn sections(check: &Check, all: bool) -> Vec<Section> {
     let gates: Vec<&Judgement> = check.gates.iter().collect();
     let (passed, attention) = by_attention(&gates);
-    let mut section = Section::new("Gates");
-    if !attention.is_empty() {
-        section = section.block(gate_table("", &attention));
-    }
-    if all && !passed.is_empty() {
-        section = section.block(gate_table("Gates that pass:", &passed));
-    }
-    // The line that sums up comes last, where the eye ends.
-    let section = section.paragraph(summary(&gates));
+    let section = Section::new("Gates")
+        .blocks((!attention.is_empty()).then(|| gate_table("", &attention)))
+        .blocks((all && !passed.is_empty()).then(|| gate_table("Gates that pass:", &passed)))
+        // The line that sums up comes last, where the eye ends.
+        .paragraph(summary(&gates));
     let mut sections = vec![section, constants(check)];
     sections.extend(check.proofs.as_ref().map(proved));
     sections
@@ -122,33 +118,29 @@ fn sections(check: &Check, all: bool) -> Vec<Section> {
 fn constants(check: &Check) -> Section {
     let failed: Vec<_> = check.constants.iter().filter(|c| c.verdict == Verdict::Fail).collect();
     let (good, of) = (check.constants.len() - failed.len(), check.constants.len());
-    let mut section = Section::new("Constants");
-    if !failed.is_empty() {
-        let table = PrintedTable::over("", failed)
-            .column(PrintedColumn::verdict("verdict"), |of| Cell::verdict(of.verdict))
-            .column(PrintedColumn::code("fit"), |of| Cell::text(of.fit.as_str()))
-            .column(PrintedColumn::text("why"), |of| Cell::text(of.detail.as_str()));
-        section = section.block(table);
-    }
-    section.paragraph(format!("constants reproduce in {good} of {of} fits"))
+    let table = || {
+        PrintedTable::over("", &failed)
+            .verdict("verdict", |of| of.verdict)
+            .code("fit", |of| of.fit.as_str())
+            .text("why", |of| of.detail.as_str())
+    };
+    Section::new("Constants")
+        .blocks((!failed.is_empty()).then(table))
+        .paragraph(format!("constants reproduce in {good} of {of} fits"))
 }
 
 fn proved(proofs: &Proofs) -> Section {
     let step = |step: f64| Cell::text(format!("{:+} %", 100.0 * step));
     let none = |word: &'static str| move || Cell::text(word);
     let table = PrintedTable::over("", &proofs.proofs)
-        .column(PrintedColumn::figures("line"), |of| Cell::count(of.line))
-        .column(PrintedColumn::code("subject"), |of| Cell::text(of.subject.as_str()))
-        .column(PrintedColumn::code("metric"), |of| Cell::text(of.metric.name()))
-        .column(PrintedColumn::code("constant"), |of| Cell::text(of.constant.as_str()))
-        .column(PrintedColumn::figures("trips at"), |of| of.step.map_or_else(none("none"), step))
-        .column(PrintedColumn::figures("measured"), |of| {
-            of.value.map_or_else(none(""), |value| Cell::number(value, 5))
-        })
-        .column(PrintedColumn::figures("limit"), |of| Cell::number(of.limit, 5))
-        .column(PrintedColumn::text("fits alone"), |of| {
-            Cell::text(format!("{} of {}", of.alone, of.of))
-        });
+        .figures("line", |of| of.line)
+        .code("subject", |of| of.subject.as_str())
+        .code("metric", |of| of.metric.name())
+        .code("constant", |of| of.constant.as_str())
+        .figures("trips at", |of| of.step.map_or_else(none("none"), step))
+        .figures("measured", |of| of.value.map_or_else(none(""), |value| Cell::number(value, 5)))
+        .figures("limit", |of| (of.limit, 5))
+        .text("fits alone", |of| format!("{} of {}", of.alone, of.of));
     let mut section = Section::new("Proofs that gates can fail").block(table);
     if proofs.without_device > 0 {
         let count = proofs.without_device;
@@ -159,6 +151,5 @@ fn proved(proofs: &Proofs) -> Section {
         return section
             .paragraph("every gate can fail, and every constant has a gate that notices it");
     }
-    let defects = proofs.defects.iter().map(|defect| format!("DEFECT {defect}").into());
-    section.block(Block::List(defects.collect()))
+    section.list(proofs.defects.iter().map(|defect| format!("DEFECT {defect}")))
 }

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum};
 
-use super::compare_text::{Compared, Comparison, Flip, ImageComparison, Judgement};
+use super::compare_text::{Compared, Comparison, Flip, Judgement};
 use super::context::Context;
+use super::output::name;
 use super::{Ending, assignment};
 use crate::render::compare::columns::column_differences;
 use crate::render::compare::error_map::ErrorMap;
@@ -83,30 +84,13 @@ pub(super) enum Metric {
     Significance,
 }
 
-impl Metric {
-    /// The name on the command line.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Mean => "mean",
-            Self::Rms => "rms",
-            Self::RelativeRms => "relative_rms",
-            Self::Max => "max",
-            Self::Flip => "flip",
-            Self::Z => "z",
-            Self::Significance => "significance",
-        }
-    }
-}
-
 fn limit(text: &str) -> Result<(Metric, f64), String> {
-    let (name, limit) = assignment::number(text)?;
-    let known = || {
-        let names = Metric::value_variants().iter().map(|metric| metric.name());
-        names.collect::<Vec<_>>().join(", ")
-    };
-    let metric = Metric::from_str(&name, false)
-        .map_err(|_| format!("unknown metric {name:?}; known metrics: {}", known()))?;
-    Ok((metric, limit))
+    let (metric, limit) = assignment::number(text)?;
+    let known = Metric::from_str(&metric, false).map_err(|_| {
+        let names: Vec<String> = Metric::value_variants().iter().copied().map(name).collect();
+        format!("unknown metric {metric:?}; known metrics: {}", names.join(", "))
+    })?;
+    Ok((known, limit))
 }
 
 /// Compares, prints, and fails if a metric is above its limit.
@@ -118,13 +102,11 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         (false, false) => images(arguments).with_context(both)?,
         _ => bail!("{}: one is a table, the other an image", both()),
     };
-    let mut judgements = Vec::new();
-    for (metric, limit) in &arguments.fail_above {
-        let value = compared
-            .metric(*metric)
-            .map_err(|why| anyhow::anyhow!("--fail-above {}: {}: {why}", metric.name(), both()))?;
-        judgements.push(Judgement { metric: *metric, value, limit: *limit });
-    }
+    let judge = |&(metric, limit): &(Metric, f64)| match compared.metric(metric) {
+        Ok(value) => Ok(Judgement { metric, value, limit }),
+        Err(why) => bail!("--fail-above {}: {}: {why}", name(metric), both()),
+    };
+    let judgements = arguments.fail_above.iter().map(judge).collect::<Result<Vec<_>, _>>()?;
     let passed = judgements.iter().all(Judgement::passed);
     let comparison = Comparison { a, b, compared: &compared, judgements: &judgements };
     context.output.sections(&comparison.json(), || vec![comparison.section()])?;
@@ -146,7 +128,7 @@ fn tables(arguments: &Arguments) -> anyhow::Result<Compared> {
     }
     let read = |path| Table::read_csv_with(path, ReadOptions { allow_non_finite: true });
     let (test, reference) = (read(&arguments.a)?, read(&arguments.b)?);
-    Ok(Compared::Tables(column_differences(&test, &reference)?))
+    Ok(Compared::tables(column_differences(&test, &reference)?))
 }
 
 fn images(arguments: &Arguments) -> anyhow::Result<Compared> {
@@ -154,22 +136,16 @@ fn images(arguments: &Arguments) -> anyhow::Result<Compared> {
     let difference = ImageDifference::of(&test, &reference)?;
     let has_errors =
         |image: &Image| image.quantities().all(|c| image.standard_error(&c.name).is_some());
-    let z = if has_errors(&test) || has_errors(&reference) {
-        Some(ZTest::of(&test, &reference, Pooling::default())?)
-    } else {
-        None
-    };
+    let noisy = has_errors(&test) || has_errors(&reference);
+    let z = noisy.then(|| ZTest::of(&test, &reference, Pooling::default())).transpose()?;
     let flip = match reference.colours() {
         Ok(_) => Ok(flip(arguments, &test, &reference)?),
         Err(error) => Err(error.to_string()),
     };
     if let Some(path) = &arguments.flip_map {
         match &flip {
-            Ok(flip) => match &flip.map {
-                Some(map) => ErrorMap::of_flip(map).write_png(path, false)?,
-                None => bail!("--flip-map: {}", flip.conditions),
-            },
-            Err(why) => bail!("--flip-map: {why}"),
+            Ok(Flip { map: Some(map), .. }) => ErrorMap::of_flip(map).write_png(path, false)?,
+            Ok(Flip { conditions: why, .. }) | Err(why) => bail!("--flip-map: {why}"),
         }
     }
     let mut scale = None;
@@ -178,7 +154,7 @@ fn images(arguments: &Arguments) -> anyhow::Result<Compared> {
         map.write_png(path, true)?;
         scale = Some(map.scale);
     }
-    Ok(Compared::Images(Box::new(ImageComparison { difference, flip, z, scale })))
+    Ok(Compared::images(&difference, flip, z, scale))
 }
 
 /// FLIP, of the kind that the files and the options ask for. A reference that is black throughout

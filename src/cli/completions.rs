@@ -14,7 +14,6 @@ pub(super) struct Arguments {
     shell: clap_complete::Shell,
 }
 
-/// Prints the completions for one shell.
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<Ending> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut CommandLine::command(), "striae", &mut script);

@@ -14,9 +14,7 @@ use crate::run::{self, Run};
 /// The surroundings of one run.
 #[derive(Debug)]
 pub(super) struct Context {
-    /// Where results and notes go.
     pub(super) output: Output,
-    /// Seed given on the command line.
     pub(super) seed: Option<u64>,
     project: Result<Project, Arc<ProjectError>>,
 }
@@ -46,7 +44,6 @@ impl Context {
         self.project.as_ref().map_err(|error| anyhow::Error::new(Arc::clone(error)))
     }
 
-    /// Whether there is a project.
     pub(super) fn has_project(&self) -> bool {
         self.project.is_ok()
     }

@@ -8,7 +8,6 @@ use crate::table::provenance::Provenance;
 /// A folder under `data/measured`.
 #[derive(Debug)]
 pub(super) struct DataSet {
-    /// Name of the folder.
     pub(super) name: String,
     /// Number of data files that `SOURCE.toml` accounts for.
     pub(super) files: usize,

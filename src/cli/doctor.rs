@@ -7,16 +7,16 @@ use serde::Serialize;
 
 use super::context::Context;
 use super::{Ending, data};
-use crate::document::{Cell, PrintedColumn, PrintedTable, Section};
+use crate::document::{PrintedTable, Section};
 use crate::gpu;
 
 /// Tools outside that some checks use where they are installed, and what for.
-const TOOLS: &[(&str, &str, &str)] = &[
-    ("glslangValidator", "--version", "compiles emitted GLSL and HLSL in the tests"),
-    ("dxc", "--version", "compiles emitted HLSL in the tests"),
-    ("spirv-val", "--version", "validates emitted SPIR-V in the tests"),
-    ("rustc", "--version", "builds striae"),
-    ("python3", "--version", "runs the peers of the benches and the oracles"),
+const TOOLS: &[(&str, &str)] = &[
+    ("glslangValidator", "compiles emitted GLSL and HLSL in the tests"),
+    ("dxc", "compiles emitted HLSL in the tests"),
+    ("spirv-val", "validates emitted SPIR-V in the tests"),
+    ("rustc", "builds striae"),
+    ("python3", "runs the peers of the benches and the oracles"),
 ];
 
 /// Show what this machine and this project offer: toolchain, adapters, data, tools
@@ -43,15 +43,14 @@ pub(super) fn run(_: &Arguments, context: &Context) -> anyhow::Result<Ending> {
     let mut lines = machine();
     lines.extend(adapters());
     lines.extend(project(context)?);
-    lines.extend(TOOLS.iter().map(|(name, flag, use_)| tool(name, flag, use_)));
+    lines.extend(TOOLS.iter().map(|(name, what_for)| tool(name, what_for)));
     context.output.sections(&lines, || {
         let table = PrintedTable::over("", &lines)
-            .column(PrintedColumn::text("subject"), |line| Cell::text(line.subject.as_str()))
-            .column(PrintedColumn::text("state"), |line| Cell::text(line.state))
-            .column(PrintedColumn::text("detail"), |line| Cell::text(line.detail.as_str()));
+            .text("subject", |line| line.subject.as_str())
+            .text("state", |line| line.state)
+            .text("detail", |line| line.detail.as_str());
         vec![Section::default().block(table)]
-    })?;
-    Ok(Ending::Done)
+    })
 }
 
 fn machine() -> Vec<Line> {
@@ -110,8 +109,9 @@ fn project(context: &Context) -> anyhow::Result<Vec<Line>> {
     Ok(lines)
 }
 
-fn tool(name: &str, flag: &str, what_for: &str) -> Line {
-    let run = Command::new(name).arg(flag).stdin(Stdio::null()).stderr(Stdio::null()).output();
+fn tool(name: &str, what_for: &str) -> Line {
+    let run =
+        Command::new(name).arg("--version").stdin(Stdio::null()).stderr(Stdio::null()).output();
     match run {
         Ok(output) => {
             let text = String::from_utf8_lossy(&output.stdout);

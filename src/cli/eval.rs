@@ -11,7 +11,6 @@ use super::{Ending, output};
 use crate::effect::{Candidate, Reference};
 use crate::form::Input;
 use crate::gpu::Device;
-use crate::project::Named;
 use crate::table::store::atomic_write;
 
 const MORE: &str = "\
@@ -76,37 +75,29 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
         None => arguments.name.clone(),
     };
     let project = context.project_or_here();
-    let subject = match project.registry().reference(&name) {
-        Some((_, reference)) => Named::Reference(reference),
-        None => {
-            let set = arguments.set.iter().cloned().collect();
-            Named::Candidate(Box::new(project.candidate_with(&name, &set)?))
-        }
-    };
-    let points = Points::read(&arguments.input)?;
-    let results = match subject {
-        Named::Reference(reference) => {
+    let csv = match project.registry().reference(&name) {
+        Some((_, reference)) => {
             if let Some((name, _)) = arguments.set.first() {
                 bail!("--set {name}: the reference {} has no constants", reference.name);
             }
             if arguments.precision != Precision::F64 {
                 bail!("--precision: the reference {} is evaluated in f64 only", reference.name);
             }
-            of_reference(reference, &points)?
+            let points = Points::read(&arguments.input)?;
+            points.with(&of_reference(reference, &points)?)?
         }
-        Named::Candidate(candidate) => of_candidate(&candidate, &points, arguments.precision)?,
+        None => {
+            let set = arguments.set.iter().cloned().collect();
+            let candidate = project.candidate_with(&name, &set)?;
+            let points = Points::read(&arguments.input)?;
+            points.with(&of_candidate(&candidate, &points, arguments.precision)?)?
+        }
     };
-    write(&arguments.output, &points.with(&results)?)?;
-    Ok(Ending::Done)
-}
-
-fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    if path == Path::new("-") {
-        output::to_stdout(&String::from_utf8_lossy(bytes))?;
-    } else {
-        atomic_write(path, bytes)?;
+    match arguments.output == Path::new("-") {
+        true => output::to_stdout(&String::from_utf8_lossy(&csv))?,
+        false => atomic_write(&arguments.output, &csv)?,
     }
-    Ok(())
+    Ok(Ending::Done)
 }
 
 type Results = Vec<(String, Vec<String>)>;
@@ -116,15 +107,13 @@ fn of_reference(reference: &Reference, points: &Points) -> anyhow::Result<Result
         reference.arguments.iter().map(|a| (a.name.to_owned(), Some(a.unit))).collect();
     let columns = points.columns(&arguments)?;
     let rows = columns.first().map_or(0, Vec::len);
-    let mut values = Vec::with_capacity(rows);
-    for row in 0..rows {
-        let point: Vec<f64> =
-            columns.iter().filter_map(|column| column.get(row).copied()).collect();
-        let value = reference
-            .value(&point)
-            .with_context(|| format!("{}: {}", points.place(row), reference.name))?;
-        values.push(format!("{value:?}"));
-    }
+    let value = |row: usize| {
+        let point: Vec<f64> = columns.iter().map(|column| column[row]).collect();
+        let value = reference.value(&point);
+        let value = value.with_context(|| format!("{}: {}", points.place(row), reference.name))?;
+        Ok(format!("{value:?}"))
+    };
+    let values = (0..rows).map(value).collect::<anyhow::Result<_>>()?;
     Ok(vec![("value".to_owned(), values)])
 }
 

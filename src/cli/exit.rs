@@ -28,22 +28,15 @@ impl From<Ending> for ExitCode {
 
 /// Prints `error` with its causes on stderr and returns how the run ends.
 pub(super) fn report(error: &anyhow::Error, json: bool) -> Ending {
-    let ending = ending(error);
+    let no_gpu = error.chain().any(|cause| cause.is::<NoDevice>());
+    let ending = if no_gpu { Ending::NoGpu } else { Ending::BadInput };
     let causes = causes(error);
     if json {
         let text = serde_json::json!({ "error": causes, "exit": ending as u8 });
         super::output::to_stderr(&text.to_string());
     } else {
-        let mut text = String::new();
-        for (depth, cause) in causes.iter().enumerate() {
-            if depth == 0 {
-                text.push_str("error: ");
-            } else {
-                text.push_str("\n  caused by: ");
-            }
-            text.push_str(cause.trim_end());
-        }
-        super::output::to_stderr(&text);
+        let causes: Vec<&str> = causes.iter().map(|cause| cause.trim_end()).collect();
+        super::output::to_stderr(&format!("error: {}", causes.join("\n  caused by: ")));
     }
     ending
 }
@@ -58,8 +51,4 @@ fn causes(error: &anyhow::Error) -> Vec<String> {
         }
     }
     messages
-}
-
-fn ending(error: &anyhow::Error) -> Ending {
-    if error.chain().any(|cause| cause.is::<NoDevice>()) { Ending::NoGpu } else { Ending::BadInput }
 }

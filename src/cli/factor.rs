@@ -10,13 +10,14 @@ use super::Ending;
 use super::context::Context;
 use super::factor_pictures::{picture, write_lines};
 use super::factor_table::{Factored, Lines, Row};
+use super::output::name;
 use crate::factor::{
     Alignment, ConvolutionNorm, ConvolvedOptions, Decomposition, LowRank, LowRankError,
     MainDirections, NormOptions, SearchOptions, Stopping, Weight, aligned, convolved, directional,
     main_directions, nonnegative, shared, weighted,
 };
 use crate::measured::environment::Environment;
-use crate::table::{Grid, store};
+use crate::table::{Axis, Grid, GridChannel, store};
 
 const MORE: &str = "\
 S(x, y) becomes a sum of products of one factor along y and one along x, per channel. Methods:
@@ -91,20 +92,6 @@ pub(super) enum Method {
     All,
 }
 
-impl Method {
-    /// The name on the command line, and of the folder of its factors.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Svd => "svd",
-            Self::Joint => "joint",
-            Self::Weighted => "weighted",
-            Self::Convolution => "convolution",
-            Self::Nonnegative => "nonnegative",
-            Self::All => "all",
-        }
-    }
-}
-
 fn ranks(text: &str) -> Result<(usize, usize), String> {
     let one = |part: &str| match part.trim().parse::<usize>() {
         Ok(rank) if rank > 0 => Ok(rank),
@@ -147,22 +134,16 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     let svd_ms = milliseconds(begin);
     let ranks = chosen_ranks(arguments, &decomposition)?;
     decomposition.low_rank(*ranks.end())?;
-    let norm = if environments.is_empty() {
-        None
-    } else {
-        let options = NormOptions {
-            orientations: usize::from(arguments.orientations),
-            seed: context.seed.unwrap_or(NormOptions::default().seed),
-            alignment,
-            ..NormOptions::default()
-        };
-        Some(ConvolutionNorm::from_environments(
-            &environments,
-            straight.x(),
-            straight.y(),
-            &options,
-        )?)
+    let options = NormOptions {
+        orientations: usize::from(arguments.orientations),
+        seed: context.seed.unwrap_or(NormOptions::default().seed),
+        alignment,
+        ..NormOptions::default()
     };
+    let (x, y) = (straight.x(), straight.y());
+    let norm = (!environments.is_empty())
+        .then(|| ConvolutionNorm::from_environments(&environments, x, y, &options))
+        .transpose()?;
 
     let work = Work { table: &straight, alignment, decomposition: &decomposition, svd_ms, norm };
     let mut kernels = Vec::new();
@@ -220,7 +201,7 @@ fn methods(arguments: &Arguments, table: &Grid) -> anyhow::Result<(Vec<Method>, 
     } else {
         methods.push(Method::Convolution);
     }
-    let negative = |c: &crate::table::GridChannel| c.values.iter().any(|v| *v < 0.0);
+    let negative = |c: &GridChannel| c.values.iter().any(|v| *v < 0.0);
     match table.channels.iter().find(|c| negative(c)) {
         Some(channel) => left_out.push(format!(
             "nonnegative: not measured, channel {:?} has negative values",
@@ -285,20 +266,15 @@ impl Work<'_> {
         ms: f64,
     ) -> Result<Vec<Row>, LowRankError> {
         let errors = kernel.relative_errors(self.table)?;
-        let seen = match &self.norm {
-            Some(norm) => norm.relative_errors(self.table, kernel)?.into_iter().map(Some).collect(),
-            None => vec![None; errors.len()],
-        };
-        let channels = self.table.channels.iter().zip(errors).zip(seen);
-        let row = |((channel, relative_error), after_convolution): (
-            (&crate::table::GridChannel, f64),
-            Option<f64>,
-        )| Row {
-            method: method.name(),
+        let seen = self.norm.as_ref().map(|norm| norm.relative_errors(self.table, kernel));
+        let seen = seen.transpose()?;
+        let channels = self.table.channels.iter().zip(errors).enumerate();
+        let row = |(at, (channel, relative_error)): (usize, (&GridChannel, f64))| Row {
+            method: name(method),
             rank,
             channel: channel.name.clone(),
             relative_error,
-            after_convolution,
+            after_convolution: seen.as_ref().map(|seen| seen[at]),
             ms,
         };
         Ok(channels.map(row).collect())
@@ -324,12 +300,12 @@ fn write(
     for (method, rank, kernel) in kernels {
         let before = drawn.iter().filter(|m| *m == method).count();
         if before < PICTURES - 1 || *rank == largest {
-            let name = format!("{}_{rank}.png", method.name());
-            picture(&kernel.product()?, &folder.join(name), Some(exposure))?;
+            let file = format!("{}_{rank}.png", name(*method));
+            picture(&kernel.product()?, &folder.join(file), Some(exposure))?;
             drawn.push(*method);
         }
         if *rank == largest {
-            let own = folder.join(method.name());
+            let own = folder.join(name(*method));
             std::fs::create_dir_all(&own).with_context(|| own.display().to_string())?;
             kernel.write(&own)?;
         }
@@ -344,7 +320,7 @@ fn along_lines(
     found: Option<&MainDirections>,
 ) -> Result<Option<Lines>, LowRankError> {
     let (Some(count), Some(found)) = (arguments.directional, found) else { return Ok(None) };
-    let half = |axis: &crate::table::Axis| axis.from.abs().min(axis.to.abs());
+    let half = |axis: &Axis| axis.from.abs().min(axis.to.abs());
     let [x, y] = found.angles_rad.map(|angle| [angle.cos(), angle.sin()]);
     let (directions, half_width) = match count {
         1 => (vec![if found.brighter_is_x { x } else { y }], f64::INFINITY),

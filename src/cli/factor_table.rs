@@ -5,14 +5,14 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::document::{self, Cell, PrintedColumn, Section, number};
+use crate::document::{Block, Cell, PrintedColumn, PrintedTable, Section, number};
 use crate::factor::{Directional, MainDirections, SingularSpectrum};
 use crate::table::{Grid, shortest_number};
 
 /// One method at one rank in one channel.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct Row {
-    pub(super) method: &'static str,
+    pub(super) method: String,
     pub(super) rank: usize,
     pub(super) channel: String,
     /// ‖S − Ŝ‖/‖S‖.
@@ -45,17 +45,11 @@ impl Factored<'_> {
     /// `errors.csv`.
     pub(super) fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record([
-            "method",
-            "rank",
-            "channel",
-            "relative_error",
-            "error_after_convolution",
-            "ms",
-        ])?;
+        let header = "method rank channel relative_error error_after_convolution ms";
+        writer.write_record(header.split(' '))?;
         for row in self.rows {
             writer.write_record([
-                row.method,
+                &row.method,
                 &row.rank.to_string(),
                 &row.channel,
                 &shortest_number(row.relative_error),
@@ -80,24 +74,22 @@ impl Factored<'_> {
                  {before} % before, {after} % after"
             ));
         }
-        section = section.block(self.errors());
-        match &self.lines {
-            Some(lines) => section.paragraph(lines.text()),
-            None => section,
-        }
+        section
+            .block(self.errors())
+            .blocks(self.lines.iter().map(|lines| Block::Paragraph(lines.text().into())))
     }
 
     /// A row per method and rank.
-    fn errors(&self) -> document::PrintedTable {
+    fn errors(&self) -> PrintedTable {
         let names = || self.table.channels.iter().map(|c| c.name.as_str()).enumerate();
         let seen = self.rows.iter().any(|row| row.after_convolution.is_some());
         let number = |row: Option<&Row>, of: fn(&Row) -> Option<f64>| {
             Cell::number_or(row.and_then(of), 4, "no environment")
         };
         // Rows of the channels of one method at one rank stand together.
-        document::PrintedTable::over("", self.rows.chunks(self.table.channels.len().max(1)))
-            .column(PrintedColumn::code("method"), |rows| Cell::text(rows[0].method))
-            .column(PrintedColumn::figures("rank"), |rows| Cell::count(rows[0].rank))
+        PrintedTable::over("", self.rows.chunks(self.table.channels.len().max(1)))
+            .code("method", |rows| rows[0].method.as_str())
+            .figures("rank", |rows| rows[0].rank)
             .columns(
                 names(),
                 |(_, name)| PrintedColumn::figures(format!("error {name}")),
@@ -108,23 +100,12 @@ impl Factored<'_> {
                 |(_, name)| PrintedColumn::figures(format!("convolved {name}")),
                 |rows, (at, _)| number(rows.get(*at), |row| row.after_convolution),
             )
-            .column(PrintedColumn::figures("ms"), |rows| Cell::number(rows[0].ms, 3))
+            .figures("ms", |rows| rows[0].ms)
             .table()
     }
 
     /// For a program.
     pub(super) fn json(&self) -> Value {
-        let spectra: Vec<Value> = self
-            .spectra
-            .iter()
-            .map(|s| {
-                json!({
-                    "channel": s.channel,
-                    "singular_values": s.singular_values,
-                    "relative_errors": s.relative_errors,
-                })
-            })
-            .collect();
         let alignment = self.directions.map(|found| {
             json!({
                 "angles_deg": found.angles_rad.map(f64::to_degrees),
@@ -147,7 +128,7 @@ impl Factored<'_> {
             "table": self.table.origin,
             "output": self.folder.display().to_string(),
             "rows": self.rows,
-            "spectra": spectra,
+            "spectra": self.spectra,
             "alignment": alignment,
             "directional": lines,
         })
@@ -160,17 +141,12 @@ impl Lines {
     }
 
     fn text(&self) -> String {
-        let angles: Vec<String> = self
-            .directions()
-            .iter()
-            .map(|[x, y]| format!("{}°", number(y.atan2(*x).to_degrees(), 5)))
-            .collect();
-        let lost: Vec<String> = self
-            .all
-            .lost
-            .iter()
-            .map(|(name, part)| format!("{name} {} %", number(100.0 * part, 3)))
-            .collect();
+        let directions = self.directions().into_iter();
+        let angles: Vec<String> =
+            directions.map(|[x, y]| format!("{}°", number(y.atan2(x).to_degrees(), 5))).collect();
+        let lost = self.all.lost.iter();
+        let lost: Vec<String> =
+            lost.map(|(name, part)| format!("{name} {} %", number(100.0 * part, 3))).collect();
         format!("lines at {}; energy on no line: {}", angles.join(" and "), lost.join(", "))
     }
 }

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::context::Context;
 use super::fit_table::{one, summary};
-use super::{Ending, assignment, progress};
+use super::{Ending, assignment};
 use crate::fit::loss::Loss;
 use crate::fit::solve::SolverKind;
 use crate::fit::spec::{FormChoice, ParameterChoice, Target, Unnamed, Weighting};
@@ -147,22 +147,23 @@ pub(super) fn fit(
     place: &fit::Context,
     context: &Context,
 ) -> anyhow::Result<Vec<FitResult>> {
-    let bar = progress::bar(context.output, jobs.len());
+    let bar = context.output.bar(jobs.len());
     let results = run::fit(jobs, place, &|name| match name {
         Some(name) => bar.set_message(name.to_owned()),
         None => bar.inc(1),
     });
     bar.finish_and_clear();
-    let mut good = Vec::with_capacity(jobs.len());
-    let mut fault = None;
+    let (mut good, mut faults) = (Vec::new(), Vec::new());
     for result in results {
         match result {
             Ok(result) => good.push(result),
-            Err(error) if fault.is_none() => fault = Some(error),
-            Err(error) => context.output.note(&format!("error: {:#}", anyhow::Error::new(error))),
+            Err(error) => faults.push(anyhow::Error::new(error)),
         }
     }
-    fault.map_or(Ok(good), |error| Err(error.into()))
+    let mut faults = faults.into_iter();
+    let first = faults.next();
+    faults.for_each(|error| context.output.note(&format!("error: {error:#}")));
+    first.map_or(Ok(good), Err)
 }
 
 fn json(results: &[FitResult]) -> anyhow::Result<serde_json::Value> {
@@ -174,11 +175,8 @@ fn json(results: &[FitResult]) -> anyhow::Result<serde_json::Value> {
 
 fn jobs(arguments: &Arguments, context: &Context) -> anyhow::Result<(Vec<Job>, PathBuf)> {
     if let Some(form) = &arguments.own.form {
-        let output = arguments.output.clone().unwrap_or_default();
-        let job = Job {
-            spec: own_spec(form, &arguments.own, context.project_or_here().registry())?,
-            result: output,
-        };
+        let spec = own_spec(form, &arguments.own, context.project_or_here().registry())?;
+        let job = Job { spec, result: arguments.output.clone().unwrap_or_default() };
         return Ok((vec![job], PathBuf::new()));
     }
     if let Some(path) = &arguments.spec {
@@ -195,11 +193,9 @@ fn jobs(arguments: &Arguments, context: &Context) -> anyhow::Result<(Vec<Job>, P
         );
     }
     let project = context.project()?;
-    let mut jobs = Vec::new();
-    for file in project.specs_named(&arguments.names)? {
-        let result = file.result();
-        jobs.push(Job { spec: Spec::read(&file.path)?, result });
-    }
+    let files = project.specs_named(&arguments.names)?.into_iter();
+    let jobs = files.map(|file| Ok(Job { spec: Spec::read(&file.path)?, result: file.result() }));
+    let mut jobs = jobs.collect::<anyhow::Result<Vec<_>>>()?;
     if let Some(output) = &arguments.output {
         match jobs.as_mut_slice() {
             [job] => job.result.clone_from(output),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::{Cell, PrintedColumn, PrintedTable, Section, number};
+use crate::document::{Cell, PrintedTable, Section, number, place};
 use crate::fit::FitResult;
 use crate::fit::outcome::Outcome;
 use crate::report::pages::{constants, family_constants, status};
@@ -20,22 +20,22 @@ pub(super) fn summary(results: &[FitResult]) -> Section {
         }
     };
     let table = PrintedTable::over("", results)
-        .column(PrintedColumn::code("fit"), |result| match result {
+        .code("fit", |result| match result {
             FitResult::Single(outcome) => Cell::text(outcome.name.as_str()),
             FitResult::Family(family) => Cell::text(family.name.as_str()),
         })
-        .column(PrintedColumn::verdict("status"), |result| match result {
+        .verdict("status", |result| match result {
             FitResult::Single(outcome) => status(outcome),
             FitResult::Family(family) => Cell::text(endings(&family.members)),
         })
-        .column(PrintedColumn::figures("free"), |result| {
+        .figures("free", |result| {
             result
                 .outcomes()
                 .first()
                 .map_or_else(|| Cell::text(""), |of| Cell::count(of.free_count()))
         })
-        .column(PrintedColumn::figures("rms (f32)"), |result| Cell::number(shipped(result).0, 4))
-        .column(PrintedColumn::figures("max (f32)"), |result| Cell::number(shipped(result).1, 4));
+        .figures("rms (f32)", |result| (shipped(result).0, 4))
+        .figures("max (f32)", |result| (shipped(result).1, 4));
     Section::default().block(table)
 }
 
@@ -62,6 +62,10 @@ pub(super) fn one(result: &FitResult) -> Section {
 fn single(outcome: &Outcome) -> Section {
     let name = if outcome.name.is_empty() { &outcome.form } else { &outcome.name };
     let (residuals, shipped) = (&outcome.residuals, &outcome.residuals_f32);
+    let at = match place(&residuals.max_abs_at, 6) {
+        at if at.is_empty() => at,
+        at => format!(" at {at}"),
+    };
     let section = Section::new(name.as_str()).paragraph(format!(
         "{} after {} iterations ({}). {} points, rms {}, max {}{}; in f32 rms {}, max {}.",
         outcome.status.words(),
@@ -70,7 +74,7 @@ fn single(outcome: &Outcome) -> Section {
         residuals.count,
         number(residuals.rms, 6),
         number(residuals.max_abs, 6),
-        place(outcome),
+        at,
         number(shipped.rms, 6),
         number(shipped.max_abs, 6),
     ));
@@ -78,11 +82,4 @@ fn single(outcome: &Outcome) -> Section {
         return section;
     }
     section.block(constants(std::iter::once(outcome)))
-}
-
-fn place(outcome: &Outcome) -> String {
-    let at = outcome.residuals.max_abs_at.iter();
-    let places: Vec<String> =
-        at.map(|(name, value)| format!("{name} = {}", number(*value, 6))).collect();
-    if places.is_empty() { String::new() } else { format!(" at {}", places.join(", ")) }
 }

@@ -65,10 +65,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     if arguments.negative_as_black {
         imported.notes.iter().for_each(|note| context.output.note(note));
     }
-    context
-        .output
-        .sections(&summary, || line(format!("{output}: {text} from {}", imported.format)))?;
-    Ok(Ending::Done)
+    context.output.sections(&summary, || line(format!("{output}: {text} from {}", imported.format)))
 }
 
 /// What was imported, for machines and for people.

@@ -1,14 +1,14 @@
 //! `list`: what there is, with one-line descriptions.
 
 use clap::{Args, ValueEnum};
-use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::Ending;
 use super::context::Context;
-use crate::document::{Cell, PrintedColumn, PrintedTable, Section, number};
-use crate::gate;
-use crate::registry::Registry;
+use super::output::name;
+use crate::document::{PrintedColumn, PrintedTable, Section, number};
+use crate::effect::Reference;
+use crate::gate::{self, Gate};
 use crate::render::Scene;
 
 /// List what there is: effects, references, forms, simulators, data, scenes, fits and gates
@@ -40,9 +40,9 @@ enum Kind {
 }
 
 /// One list: a header, and a row per thing.
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 struct Listing {
-    title: &'static str,
+    title: String,
     header: &'static [&'static str],
     rows: Vec<Vec<String>>,
 }
@@ -53,7 +53,7 @@ impl Listing {
         let table = PrintedTable::over(caption, &self.rows).columns(
             self.header.iter().enumerate(),
             |(_, title)| PrintedColumn::text(**title),
-            |row, (at, _)| Cell::text(row[*at].as_str()),
+            |row, (at, _)| row[*at].as_str(),
         );
         Section::default().block(table)
     }
@@ -82,12 +82,11 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     }
     let json = match listings.as_slice() {
         [one] => one.json(),
-        many => Value::Object(
-            many.iter().map(|l| (l.title.to_owned(), l.json())).collect::<Map<_, _>>(),
-        ),
+        many => {
+            Value::Object(many.iter().map(|l| (l.title.clone(), l.json())).collect::<Map<_, _>>())
+        }
     };
-    context.output.sections(&json, || listings.iter().map(Listing::section).collect())?;
-    Ok(Ending::Done)
+    context.output.sections(&json, || listings.iter().map(Listing::section).collect())
 }
 
 impl Kind {
@@ -96,18 +95,66 @@ impl Kind {
     }
 
     fn listing(self, context: &Context) -> anyhow::Result<Listing> {
-        let project = context.project_or_here();
+        let project = match self.needs_project() {
+            true => context.project()?,
+            false => &context.project_or_here(),
+        };
         let registry = project.registry();
-        Ok(match self {
-            Self::Effects => effects(registry),
-            Self::References => references(registry),
-            Self::Forms => forms(registry),
-            Self::Simulators => simulators(registry),
-            Self::Data => data(context)?,
-            Self::Scenes => scenes(context)?,
-            Self::Fits => fits(context)?,
-            Self::Gates => gates(context)?,
-        })
+        let (header, rows): (&[&str], Vec<Vec<String>>) = match self {
+            Self::Effects => {
+                let rows = registry.effects().iter().map(|of| row([of.name, of.title]));
+                (&["name", "title"], rows.collect())
+            }
+            Self::References => (
+                &["name", "arguments", "description", "accuracy", "source"],
+                registry.references().map(reference).collect(),
+            ),
+            Self::Forms => {
+                let rows = registry.forms().map(|of| {
+                    let reference = of.reference.as_deref().unwrap_or_default();
+                    row([&of.name, &of.function, reference, &of.description, &of.citation])
+                });
+                (&["name", "function", "reference", "description", "citation"], rows.collect())
+            }
+            Self::Simulators => {
+                let rows = registry.simulators().map(|of| {
+                    let settings: Vec<&str> = of.parameters.iter().map(|p| p.name).collect();
+                    row([of.name, of.description, &settings.join(", ")])
+                });
+                (&["name", "description", "settings"], rows.collect())
+            }
+            Self::Data => {
+                let rows = super::data::sets(&project.data())?.into_iter().map(|set| {
+                    let state = set.fault.unwrap_or_else(|| "complete".to_owned());
+                    row([&set.name, &set.files.to_string(), &state, &set.title])
+                });
+                (&["name", "files", "source", "description"], rows.collect())
+            }
+            Self::Scenes => {
+                let scenes = project.scenes()?.into_iter().map(|path| {
+                    let of = Scene::read(&path)?;
+                    let names: Vec<&str> =
+                        of.approximations.iter().map(|of| of.name.as_str()).collect();
+                    Ok(row([&of.name, &names.join(", "), &of.description]))
+                });
+                let rows = scenes.collect::<anyhow::Result<_>>()?;
+                (&["name", "approximations", "description"], rows)
+            }
+            Self::Fits => {
+                let specs = project.specs()?.into_iter();
+                let rows = specs.map(|of| row([&of.name, &of.state(), &of.description()]));
+                (&["name", "result", "description"], rows.collect())
+            }
+            Self::Gates => {
+                let file = project.gates();
+                let gates = if file.exists() { gate::read(&file)? } else { Vec::new() };
+                (
+                    &["subject", "metric", "precision", "domain", "limit", "why"],
+                    gates.iter().map(budget).collect(),
+                )
+            }
+        };
+        Ok(Listing { title: name(self), header, rows })
     }
 }
 
@@ -115,105 +162,15 @@ fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
     cells.map(str::to_owned).to_vec()
 }
 
-fn effects(registry: &Registry) -> Listing {
-    let rows = registry.effects().iter().map(|effect| row([effect.name, effect.title])).collect();
-    Listing { title: "effects", header: &["name", "title"], rows }
+fn reference(of: &Reference) -> Vec<String> {
+    let arguments = of.arguments.iter();
+    let arguments: Vec<String> =
+        arguments.map(|of| format!("{} [{}] in {}", of.name, of.unit, of.domain)).collect();
+    row([of.name, &arguments.join(", "), of.description, of.accuracy, of.source])
 }
 
-fn references(registry: &Registry) -> Listing {
-    let rows = registry.references().map(|reference| {
-        let arguments = reference.arguments.iter();
-        let arguments: Vec<String> =
-            arguments.map(|a| format!("{} [{}] in {}", a.name, a.unit, a.domain)).collect();
-        row([
-            reference.name,
-            &arguments.join(", "),
-            reference.description,
-            reference.accuracy,
-            reference.source,
-        ])
-    });
-    Listing {
-        title: "references",
-        header: &["name", "arguments", "description", "accuracy", "source"],
-        rows: rows.collect(),
-    }
-}
-
-fn forms(registry: &Registry) -> Listing {
-    let rows = registry.forms().map(|form| {
-        let reference = form.reference.as_deref().unwrap_or_default();
-        row([&form.name, &form.function, reference, &form.description, &form.citation])
-    });
-    Listing {
-        title: "forms",
-        header: &["name", "function", "reference", "description", "citation"],
-        rows: rows.collect(),
-    }
-}
-
-fn simulators(registry: &Registry) -> Listing {
-    let rows = registry.simulators().map(|simulator| {
-        let settings: Vec<&str> = simulator.parameters.iter().map(|p| p.name).collect();
-        row([simulator.name, simulator.description, &settings.join(", ")])
-    });
-    Listing {
-        title: "simulators",
-        header: &["name", "description", "settings"],
-        rows: rows.collect(),
-    }
-}
-
-fn data(context: &Context) -> anyhow::Result<Listing> {
-    let project = context.project()?;
-    let rows = super::data::sets(&project.data())?
-        .into_iter()
-        .map(|set| {
-            let state = set.fault.unwrap_or_else(|| "complete".to_owned());
-            row([&set.name, &set.files.to_string(), &state, &set.title])
-        })
-        .collect();
-    Ok(Listing { title: "data", header: &["name", "files", "source", "description"], rows })
-}
-
-fn scenes(context: &Context) -> anyhow::Result<Listing> {
-    let mut rows = Vec::new();
-    for path in context.project()?.scenes()? {
-        let scene = Scene::read(&path)?;
-        let names: Vec<&str> = scene.approximations.iter().map(|of| of.name.as_str()).collect();
-        rows.push(row([&scene.name, &names.join(", "), &scene.description]));
-    }
-    Ok(Listing { title: "scenes", header: &["name", "approximations", "description"], rows })
-}
-
-fn fits(context: &Context) -> anyhow::Result<Listing> {
-    let rows = context
-        .project()?
-        .specs()?
-        .into_iter()
-        .map(|spec| row([&spec.name, &spec.state(), &spec.description()]))
-        .collect();
-    Ok(Listing { title: "fits", header: &["name", "result", "description"], rows })
-}
-
-fn gates(context: &Context) -> anyhow::Result<Listing> {
-    let file = context.project()?.gates();
-    let gates = if file.exists() { gate::read(&file)? } else { Vec::new() };
-    let gates = gates.into_iter().map(|gate| {
-        let domain = gate.domain.map_or_else(|| "as fitted".to_owned(), |d| d.to_string());
-        let limit = number(gate.limit, 6);
-        row([
-            &gate.subject,
-            gate.metric.name(),
-            &gate.precision.to_string(),
-            &domain,
-            &limit,
-            &gate.why,
-        ])
-    });
-    Ok(Listing {
-        title: "gates",
-        header: &["subject", "metric", "precision", "domain", "limit", "why"],
-        rows: gates.collect(),
-    })
+fn budget(of: &Gate) -> Vec<String> {
+    let domain = of.domain.as_ref().map_or_else(|| "as fitted".to_owned(), ToString::to_string);
+    let (precision, limit) = (of.precision.to_string(), number(of.limit, 6));
+    row([&of.subject, of.metric.name(), &precision, &domain, &limit, &of.why])
 }

@@ -23,7 +23,6 @@ mod import;
 mod list;
 mod output;
 mod points;
-mod progress;
 mod render;
 mod simulate;
 

@@ -2,17 +2,19 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use clap::ColorChoice;
+use clap::{ColorChoice, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-pub(super) use crate::document::number as significant;
+use super::Ending;
 use crate::document::text::{self, Layout};
 use crate::document::{Inline, Section};
 
 /// Where results and notes go.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Output {
-    json: bool,
+    /// Whether JSON was asked for.
+    pub(super) json: bool,
     quiet: bool,
     layout: Layout,
 }
@@ -37,23 +39,27 @@ impl Output {
         Self { json, quiet, layout }
     }
 
-    /// Whether JSON was asked for.
-    pub(super) fn json(self) -> bool {
-        self.json
+    /// A progress bar over `steps` steps on stderr; hidden where nobody looks at it.
+    pub(super) fn bar(self, steps: usize) -> ProgressBar {
+        if self.quiet || !io::stderr().is_terminal() {
+            return ProgressBar::hidden();
+        }
+        let bar = ProgressBar::new(steps as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}") {
+            bar.set_style(style);
+        }
+        bar
     }
 
-    /// Whether a progress bar has someone to look at it.
-    pub(super) fn shows_progress(self) -> bool {
-        !self.quiet && io::stderr().is_terminal()
-    }
-
-    /// Prints `value` as JSON if that was asked for, else the sections that `sections` makes.
+    /// Prints `value` as JSON if that was asked for, else the sections that `sections` makes, with which
+    /// a verb is done.
     pub(super) fn sections<T: Serialize>(
         self,
         value: &T,
         sections: impl FnOnce() -> Vec<Section>,
-    ) -> io::Result<()> {
-        self.result(value, || text::sections(&sections(), self.layout))
+    ) -> anyhow::Result<Ending> {
+        self.result(value, || text::sections(&sections(), self.layout))?;
+        Ok(Ending::Done)
     }
 
     /// Prints `value` as JSON if that was asked for, else the text that `text` makes.
@@ -76,6 +82,11 @@ impl Output {
             to_stderr(text);
         }
     }
+}
+
+/// The name of a choice on the command line.
+pub(super) fn name<V: ValueEnum>(choice: V) -> String {
+    choice.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
 /// A section of one paragraph, for what is said in a line.

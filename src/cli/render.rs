@@ -9,7 +9,6 @@ use serde::Serialize;
 
 use super::Ending;
 use super::context::Context;
-use super::progress;
 use crate::document::Section;
 use crate::gpu::{self, Device, NoDevice};
 use crate::numeric::measured::Measured;
@@ -70,38 +69,38 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from(&scene.name));
     std::fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
 
-    let mut keeper = Keeper::new(&folder, scene.view.exposure, context);
+    let (exposure, bar) = (scene.view.exposure, context.output.bar(0));
+    let mut keeper = Keeper { folder: &folder, exposure, bar, failed: None };
     let rendered = render(&prepared, backend, &mut |event| keeper.see(event));
-    keeper.finish()?;
+    keeper.bar.finish_and_clear();
+    keeper.failed.map_or(Ok(()), Err)?;
     let rendered = rendered.with_context(|| {
         format!("{}: what is finished is kept in {}", scene.name, folder.display())
     })?;
-    write_comparison(&rendered, scene.view.exposure, &folder)?;
+    write_comparison(&rendered, exposure, &folder)?;
     let summary = Summary::new(scene, &rendered);
     let json = serde_json::to_string_pretty(&summary)?;
     atomic_write(&folder.join(format!("{FIGURES}.json")), format!("{json}\n").as_bytes())?;
     context.output.sections(&summary, || vec![section(scene, &rendered)])?;
-    let over: Vec<&String> =
-        rendered.approximations.iter().flat_map(|found| &found.over_budget).collect();
-    over.iter().for_each(|line| context.output.note(line));
-    Ok(if over.is_empty() { Ending::Done } else { Ending::GateFailed })
+    let mut over = rendered.approximations.iter().flat_map(|found| &found.over_budget).peekable();
+    let within = over.peek().is_none();
+    over.for_each(|line| context.output.note(line));
+    Ok(if within { Ending::Done } else { Ending::GateFailed })
 }
 
 /// What is printed.
 fn section(scene: &Scene, rendered: &Rendered) -> Section {
     let View { width, height, .. } = scene.view;
-    let mut section = Section::new(scene.name.as_str()).paragraph(format!(
-        "{} of {width} × {height}. Reference: {}; approximations on {}.",
-        if scene.frames() == 1 {
-            "One frame".to_owned()
-        } else {
-            format!("{} frames", scene.frames())
-        },
+    let frames = match scene.frames() {
+        1 => "One frame".to_owned(),
+        frames => format!("{frames} frames"),
+    };
+    let text = format!(
+        "{frames} of {width} × {height}. Reference: {}; approximations on {}.",
         rendered.method.words(),
         rendered.backend
-    ));
-    section.blocks.extend(scene_tables(rendered));
-    section
+    );
+    Section::new(scene.name.as_str()).paragraph(text).blocks(scene_tables(rendered))
 }
 
 /// The device, or none where the lanes are to be used.
@@ -165,20 +164,11 @@ struct Keeper<'a> {
     folder: &'a Path,
     exposure: f64,
     bar: ProgressBar,
+    /// The first error of writing, if there was one.
     failed: Option<anyhow::Error>,
 }
 
-impl<'a> Keeper<'a> {
-    fn new(folder: &'a Path, exposure: f64, context: &Context) -> Self {
-        Self { folder, exposure, bar: progress::bar(context.output, 0), failed: None }
-    }
-
-    /// Ends the bar; the first error of writing, if there was one.
-    fn finish(&mut self) -> anyhow::Result<()> {
-        self.bar.finish_and_clear();
-        self.failed.take().map_or(Ok(()), Err)
-    }
-
+impl Keeper<'_> {
     fn see(&mut self, event: Event<'_>) {
         match event {
             Event::Tile { name, done, of } => {

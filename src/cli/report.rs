@@ -7,7 +7,6 @@ use clap::Args;
 use super::Ending;
 use super::context::Context;
 use super::output::line;
-use super::progress;
 use crate::gate::Check;
 use crate::report::html::Written;
 use crate::run::Run;
@@ -39,8 +38,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     let written = write(&folder, &run, &check, context)?;
     context.output.sections(&serde_json::json!({ "files": written.files }), || {
         line(format!("{} files in {}", written.files.len(), folder.display()))
-    })?;
-    Ok(Ending::Done)
+    })
 }
 
 /// Measures everything and writes the report with the verdicts of `check`.
@@ -52,7 +50,7 @@ pub(super) fn write(
 ) -> anyhow::Result<Written> {
     let project = &run.project;
     let steps = project.registry().effects().len() + project.scenes()?.len() + 1;
-    let bar = progress::bar(context.output, steps);
+    let bar = context.output.bar(steps);
     let written = run.report(folder, check, &|what| {
         bar.set_message(format!("measuring {what}"));
         bar.inc(1);

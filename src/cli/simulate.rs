@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::Ending;
 use super::context::Context;
-use crate::document::{self, Block, Cell, Section, number};
+use crate::document::{self, Block, Section, number};
 use crate::effect::simulator::{Settings, Simulator};
 use crate::measured::spectra::Spectra;
 use crate::render::image::Image;
@@ -97,10 +97,9 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     });
     context.output.sections(&result, || {
         let notes = simulation.notes.iter().map(|note| Block::Paragraph(note.as_str().into()));
-        let tables = simulation.tables.iter().map(|table| table.clone().into());
-        vec![Section { blocks: notes.chain(tables).collect(), ..Section::default() }]
-    })?;
-    Ok(Ending::Done)
+        let tables = simulation.tables.iter().cloned();
+        vec![Section::default().blocks(notes).blocks(tables)]
+    })
 }
 
 fn extension(path: &Path) -> String {
@@ -110,13 +109,12 @@ fn extension(path: &Path) -> String {
 fn list_settings(simulator: &Simulator, context: &Context) -> anyhow::Result<Ending> {
     context.output.sections(&simulator.parameters, || {
         let table = document::PrintedTable::over("", simulator.parameters)
-            .column(document::PrintedColumn::text("setting"), |of| Cell::text(of.name))
-            .column(document::PrintedColumn::text("unit"), |of| Cell::text(of.unit))
-            .column(document::PrintedColumn::text("default"), |of| Cell::text(of.default))
-            .column(document::PrintedColumn::text("description"), |of| Cell::text(of.description));
+            .text("setting", |of| of.name)
+            .text("unit", |of| of.unit)
+            .text("default", |of| of.default)
+            .text("description", |of| of.description);
         vec![Section::default().block(table)]
-    })?;
-    Ok(Ending::Done)
+    })
 }
 
 /// The table in false brightness, and the value that is white.

@@ -1,5 +1,7 @@
 //! The cells of a table: text, numbers, verdicts, and what was not measured.
 
+use std::collections::BTreeMap;
+
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -11,8 +13,8 @@ use crate::numeric::measured::Measured;
 pub struct Cell {
     /// What it says.
     pub value: Value,
-    /// Whether it stands out, and as what.
-    pub highlight: Option<Highlight>,
+    /// Whether it stands out: what the text is about.
+    pub subject: bool,
 }
 
 /// What a cell says.
@@ -46,30 +48,6 @@ pub enum Value {
         /// Where it leads.
         href: String,
     },
-}
-
-/// Why a cell stands out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Highlight {
-    /// The best of its column.
-    Best,
-    /// The worst of its column.
-    Worst,
-    /// The one that the text is about.
-    Subject,
-}
-
-impl Highlight {
-    /// One word, for class names and plain text.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Best => "best",
-            Self::Worst => "worst",
-            Self::Subject => "subject",
-        }
-    }
 }
 
 /// How a check came out, from what needs no attention to what needs most.
@@ -114,7 +92,7 @@ impl Verdict {
 
 impl Cell {
     fn new(value: Value) -> Self {
-        Self { value, highlight: None }
+        Self { value, subject: false }
     }
 
     /// Words.
@@ -175,13 +153,6 @@ impl Cell {
         Self::new(Value::Link { text: text.into(), href: href.into() })
     }
 
-    /// The cell, standing out.
-    #[must_use]
-    pub fn highlighted(mut self, highlight: Highlight) -> Self {
-        self.highlight = Some(highlight);
-        self
-    }
-
     /// The cell as plain text.
     #[must_use]
     pub fn to_plain(&self) -> String {
@@ -215,6 +186,26 @@ impl From<f64> for Cell {
     }
 }
 
+/// A number and its significant digits.
+impl From<(f64, usize)> for Cell {
+    fn from((value, digits): (f64, usize)) -> Self {
+        Self::number(value, digits)
+    }
+}
+
+/// A count, with all its digits.
+impl From<usize> for Cell {
+    fn from(count: usize) -> Self {
+        Self::count(count)
+    }
+}
+
+impl From<Verdict> for Cell {
+    fn from(verdict: Verdict) -> Self {
+        Self::verdict(verdict)
+    }
+}
+
 impl Serialize for Cell {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
@@ -239,8 +230,8 @@ impl Serialize for Cell {
                 map.serialize_entry("href", href)?;
             }
         }
-        if let Some(highlight) = self.highlight {
-            map.serialize_entry("highlight", &highlight)?;
+        if self.subject {
+            map.serialize_entry("highlight", "subject")?;
         }
         map.end()
     }
@@ -291,4 +282,11 @@ pub fn number(value: f64, digits: usize) -> String {
     } else {
         plain
     }
+}
+
+/// A place by its coordinates, as in `x = 3.56, y = 1`, with `digits` significant digits.
+#[must_use]
+pub fn place(at: &BTreeMap<String, f64>, digits: usize) -> String {
+    let coordinates = at.iter().map(|(name, value)| format!("{name} = {}", number(*value, digits)));
+    coordinates.collect::<Vec<_>>().join(", ")
 }

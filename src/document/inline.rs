@@ -26,12 +26,6 @@ pub enum Span<'a> {
 }
 
 impl Inline {
-    /// The text with its markup.
-    #[must_use]
-    pub fn as_str(&self) -> &str {
-        &self.0
-    }
-
     /// The pieces, in order.
     #[must_use]
     pub fn spans(&self) -> Vec<Span<'_>> {

@@ -7,14 +7,12 @@
 //!
 //! ```
 //! use striae::document::text::{self, Layout};
-//! use striae::document::{Cell, PrintedColumn, PrintedTable, Section, Verdict};
+//! use striae::document::{PrintedTable, Section, Verdict};
 //!
 //! let costs = PrintedTable::over("Cost on the device.", [("published", 0.51234), ("refitted", 0.5)])
-//!     .column(PrintedColumn::code("form"), |(form, _)| Cell::text(*form))
-//!     .column(PrintedColumn::number("cost", "ns"), |(_, cost)| Cell::number(*cost, 3))
-//!     .column(PrintedColumn::verdict("gate"), |(_, cost)| {
-//!         Cell::verdict(if *cost <= 0.51 { Verdict::Pass } else { Verdict::Fail })
-//!     });
+//!     .code("form", |(form, _)| *form)
+//!     .number("cost", "ns", |(_, cost)| *cost)
+//!     .verdict("gate", |(_, cost)| if *cost <= 0.51 { Verdict::Pass } else { Verdict::Fail });
 //! let section = Section::new("Costs").paragraph("Medians of `striae bench`.").block(costs);
 //! assert_eq!(
 //!     text::sections(&[section], Layout::default()),
@@ -43,7 +41,7 @@ pub(crate) mod thin;
 
 use serde::{Serialize, Serializer};
 
-pub use cell::{Cell, Highlight, Value, Verdict, number};
+pub use cell::{Cell, Value, Verdict, number, place};
 pub use inline::{Inline, Span};
 use plot::Plot;
 pub use table::{Align, ColumnKind, PrintedColumn, PrintedTable, Tabled};
@@ -138,10 +136,29 @@ impl Section {
         self
     }
 
+    /// The section with more blocks.
+    #[must_use]
+    pub fn blocks<B: Into<Block>>(mut self, blocks: impl IntoIterator<Item = B>) -> Self {
+        self.blocks.extend(blocks.into_iter().map(Into::into));
+        self
+    }
+
     /// The section with one more paragraph.
     #[must_use]
     pub fn paragraph(self, text: impl Into<Inline>) -> Self {
         self.block(Block::Paragraph(text.into()))
+    }
+
+    /// The section with one more bulleted list.
+    #[must_use]
+    pub fn list<I: Into<Inline>>(self, items: impl IntoIterator<Item = I>) -> Self {
+        self.block(Block::List(items.into_iter().map(Into::into).collect()))
+    }
+
+    /// The section with one more table, shown on demand under `summary`.
+    #[must_use]
+    pub fn details(self, summary: impl Into<Inline>, table: impl Into<Block>) -> Self {
+        self.block(Block::Details { summary: summary.into(), blocks: vec![table.into()] })
     }
 
     /// The section with one more remark that must not be overlooked.
@@ -165,13 +182,6 @@ pub enum Block {
     Figure(Figure),
     /// An image.
     Picture(Picture),
-    /// A listing.
-    Code {
-        /// Language, for the reader and for the JSON; nothing is highlighted.
-        lang: String,
-        /// The listing.
-        text: String,
-    },
     /// A remark that must not be overlooked.
     Notice {
         /// What kind of remark.
@@ -293,34 +303,21 @@ pub struct Colophon {
     pub adapter: Option<String>,
     /// The command that regenerates the report.
     pub command: String,
-    /// Further facts, in order: name and value.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub facts: Vec<(String, String)>,
 }
 
 impl Colophon {
-    /// The adapter, or that there was none.
-    #[must_use]
-    pub fn adapter_or_not_measured(&self) -> &str {
-        self.adapter.as_deref().unwrap_or("not measured: no adapter found")
-    }
-
     /// Every fact in words: name and value, in order.
     #[must_use]
-    pub fn lines(&self) -> Vec<(&str, &str)> {
-        let mut lines = vec![
-            ("striae", self.version.as_str()),
-            ("adapter", self.adapter_or_not_measured()),
-            ("command", self.command.as_str()),
-        ];
-        lines.extend(self.facts.iter().map(|(name, value)| (name.as_str(), value.as_str())));
-        lines
+    pub fn lines(&self) -> [(&str, &str); 3] {
+        [("striae", &self.version), ("adapter", shown(&self.adapter)), ("command", &self.command)]
     }
 }
 
-fn or_not_measured<S: Serializer>(
-    adapter: &Option<String>,
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    adapter.as_deref().unwrap_or("not measured: no adapter found").serialize(serializer)
+/// The adapter, or that there was none.
+fn shown(adapter: &Option<String>) -> &str {
+    adapter.as_deref().unwrap_or("not measured: no adapter found")
+}
+
+fn or_not_measured<S: Serializer>(adapter: &Option<String>, to: S) -> Result<S::Ok, S::Error> {
+    shown(adapter).serialize(to)
 }

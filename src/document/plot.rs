@@ -17,9 +17,6 @@ pub struct Plot {
     /// Labels at points, moved aside so that they do not overlap.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub annotations: Vec<Annotation>,
-    /// Limits, as lines across the plot.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub guides: Vec<Guide>,
     /// Whether to draw the frontier through the marked points that no other beats in both x and y
     /// (lower is better).
     pub frontier: bool,
@@ -34,7 +31,6 @@ impl Plot {
             y,
             series: Vec::new(),
             annotations: Vec::new(),
-            guides: Vec::new(),
             frontier: false,
         }
     }
@@ -46,17 +42,20 @@ impl Plot {
         self
     }
 
+    /// The plot with a marker and its label at every point, and the frontier of them drawn.
+    #[must_use]
+    pub fn with_labelled(mut self, name: &str, points: &[(&str, f64, f64)]) -> Self {
+        self.series.push(Series::markers(name, points.iter().map(|(_, x, y)| (*x, *y))));
+        for (text, x, y) in points {
+            self = self.annotate(*x, *y, *text);
+        }
+        self.with_frontier()
+    }
+
     /// The plot with one more label, at a point in the units of the axes.
     #[must_use]
     pub fn annotate(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {
         self.annotations.push(Annotation { x, y, text: text.into() });
-        self
-    }
-
-    /// The plot with a horizontal line at `y`, named in the legend.
-    #[must_use]
-    pub fn guide_y(mut self, y: f64, name: impl Into<String>) -> Self {
-        self.guides.push(Guide { at: y, name: name.into() });
         self
     }
 
@@ -180,25 +179,10 @@ impl Series {
         Self::with_style(name, SeriesStyle::Markers, points)
     }
 
-    /// Markers joined by a line.
-    pub fn line_markers(
-        name: impl Into<String>,
-        points: impl IntoIterator<Item = (f64, f64)>,
-    ) -> Self {
-        Self::with_style(name, SeriesStyle::LineMarkers, points)
-    }
-
     /// The series, standing out.
     #[must_use]
     pub fn strong(mut self) -> Self {
         self.emphasis = Emphasis::Strong;
-        self
-    }
-
-    /// The series, in the background.
-    #[must_use]
-    pub fn muted(mut self) -> Self {
-        self.emphasis = Emphasis::Muted;
         self
     }
 }
@@ -213,8 +197,6 @@ pub enum SeriesStyle {
     Dashed,
     /// Markers.
     Markers,
-    /// Markers joined by a line.
-    LineMarkers,
 }
 
 /// How much a series stands out.
@@ -225,8 +207,6 @@ pub enum Emphasis {
     Normal,
     /// More: the one that the figure is about.
     Strong,
-    /// Less: context.
-    Muted,
 }
 
 /// A label at a point.
@@ -238,34 +218,6 @@ pub struct Annotation {
     pub y: f64,
     /// The label.
     pub text: String,
-}
-
-/// A horizontal line across the plot: a limit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Guide {
-    /// Its y.
-    pub at: f64,
-    /// Name, in the legend.
-    pub name: String,
-}
-
-/// A figure that cannot be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum PlotError {
-    /// A figure holds no plot.
-    #[error("figure {figure}: expected at least one plot, got none")]
-    Empty {
-        /// Its file stem.
-        figure: String,
-    },
-    /// The drawing library refuses.
-    #[error("figure {figure}: {reason}")]
-    Backend {
-        /// Its file stem.
-        figure: String,
-        /// In the library's words.
-        reason: String,
-    },
 }
 
 /// Points kept per series in the JSON.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::cell::{Cell, Highlight};
+use super::cell::Cell;
 use super::inline::Inline;
 
 /// A table. Every row has one cell per column; the first column heads its row.
@@ -24,10 +24,10 @@ impl PrintedTable {
     /// A table with a row per record; [`Tabled::column`] says what is shown of each.
     ///
     /// ```
-    /// use striae::document::{Cell, PrintedColumn, PrintedTable};
+    /// use striae::document::PrintedTable;
     /// let table = PrintedTable::over("Squares.", [1.0, 2.0, 3.0])
-    ///     .column(PrintedColumn::number("x", "1"), |x| Cell::number(*x, 2))
-    ///     .column(PrintedColumn::number("x²", "1"), |x| Cell::number(x * x, 2))
+    ///     .number("x", "1", |x| (*x, 2))
+    ///     .number("x²", "1", |x| (x * x, 2))
     ///     .table();
     /// assert_eq!(table.rows().len(), 3);
     /// ```
@@ -35,13 +35,6 @@ impl PrintedTable {
         let records: Vec<R> = records.into_iter().collect();
         let rows = records.iter().map(|_| Vec::new()).collect();
         Tabled { table: Self { caption: caption.into(), columns: Vec::new(), rows }, records }
-    }
-
-    /// The table with more rows.
-    #[must_use]
-    pub fn with_rows(mut self, rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
-        rows.into_iter().for_each(|row| self.push(row));
-        self
     }
 
     /// A table of words and numbers: title and unit per column, an empty unit for words.
@@ -54,7 +47,9 @@ impl PrintedTable {
             unit if unit.is_empty() => PrintedColumn::text(title),
             unit => PrintedColumn::number(title, unit),
         });
-        Self::new(caption, columns.collect()).with_rows(rows)
+        let mut table = Self::new(caption, columns.collect());
+        rows.into_iter().for_each(|row| table.push(row));
+        table
     }
 
     /// Rows, in order; each has one cell per column.
@@ -81,33 +76,68 @@ pub struct Tabled<R> {
 impl<R> Tabled<R> {
     /// One more column, and what it shows of a record.
     #[must_use]
-    pub fn column(mut self, column: PrintedColumn, cell: impl Fn(&R) -> Cell) -> Self {
+    pub fn column<C: Into<Cell>>(mut self, column: PrintedColumn, cell: impl Fn(&R) -> C) -> Self {
         self.table.columns.push(column);
         for (row, record) in self.table.rows.iter_mut().zip(&self.records) {
-            row.push(cell(record));
+            row.push(cell(record).into());
         }
         self
     }
 
+    /// One more column of words.
+    #[must_use]
+    pub fn text<C: Into<Cell>>(self, title: impl Into<String>, cell: impl Fn(&R) -> C) -> Self {
+        self.column(PrintedColumn::text(title), cell)
+    }
+
+    /// One more column of identifiers.
+    #[must_use]
+    pub fn code<C: Into<Cell>>(self, title: impl Into<String>, cell: impl Fn(&R) -> C) -> Self {
+        self.column(PrintedColumn::code(title), cell)
+    }
+
+    /// One more column of numbers in `unit`.
+    #[must_use]
+    pub fn number<C: Into<Cell>>(
+        self,
+        title: impl Into<String>,
+        unit: impl Into<String>,
+        cell: impl Fn(&R) -> C,
+    ) -> Self {
+        self.column(PrintedColumn::number(title, unit), cell)
+    }
+
+    /// One more column of numbers whose unit is the row's, or stands in the heading.
+    #[must_use]
+    pub fn figures<C: Into<Cell>>(self, title: impl Into<String>, cell: impl Fn(&R) -> C) -> Self {
+        self.column(PrintedColumn::figures(title), cell)
+    }
+
+    /// One more column of verdicts.
+    #[must_use]
+    pub fn verdict<C: Into<Cell>>(self, title: impl Into<String>, cell: impl Fn(&R) -> C) -> Self {
+        self.column(PrintedColumn::verdict(title), cell)
+    }
+
     /// One more column per item, and what each shows of a record.
     #[must_use]
-    pub fn columns<I>(
+    pub fn columns<I, C: Into<Cell>>(
         self,
         items: impl IntoIterator<Item = I>,
         column: impl Fn(&I) -> PrintedColumn,
-        cell: impl Fn(&R, &I) -> Cell,
+        cell: impl Fn(&R, &I) -> C,
     ) -> Self {
         items
             .into_iter()
             .fold(self, |table, item| table.column(column(&item), |record| cell(record, &item)))
     }
 
-    /// The rows of some records, standing out.
+    /// The rows of the records that the text is about, standing out.
     #[must_use]
-    pub fn highlighted(mut self, highlight: Highlight, which: impl Fn(&R) -> bool) -> Self {
+    pub fn subject(mut self, which: impl Fn(&R) -> bool) -> Self {
         let rows = self.table.rows.iter_mut().zip(&self.records);
         for (row, _) in rows.filter(|(_, record)| which(record)) {
-            row.iter_mut().for_each(|cell| cell.highlight = Some(highlight));
+            row.iter_mut().for_each(|cell| cell.subject = true);
         }
         self
     }

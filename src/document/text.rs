@@ -2,7 +2,7 @@
 
 use comfy_table::{Attribute, CellAlignment, Color, ContentArrangement, LineStyle, TableStyle};
 
-use super::cell::{Highlight, Value, Verdict};
+use super::cell::{Value, Verdict};
 use super::{Align, Block, Cell, Colophon, Page, PrintedTable, Section};
 
 /// A rule under the header and nothing else, so that a table can be read, searched and pasted.
@@ -37,14 +37,6 @@ impl Layout {
 pub fn sections(sections: &[Section], layout: Layout) -> String {
     let mut printer = Printer { layout, out: String::new() };
     sections.iter().for_each(|section| printer.section(section));
-    printer.out
-}
-
-/// A table with its caption.
-#[must_use]
-pub fn table(table: &PrintedTable, layout: Layout) -> String {
-    let mut printer = Printer { layout, out: String::new() };
-    printer.table(table);
     printer.out
 }
 
@@ -111,13 +103,6 @@ impl Printer {
             Block::Picture(picture) => {
                 let (stem, caption) = (&picture.file_stem, picture.caption.to_plain());
                 self.paragraph(&format!("[picture figures/{stem}.png] {caption}"));
-            }
-            Block::Code { text, .. } => {
-                self.gap();
-                for line in text.lines() {
-                    self.out.push_str(format!("    {line}").trim_end());
-                    self.out.push('\n');
-                }
             }
             Block::Notice { level, text } => {
                 self.paragraph(&format!("{}: {}", level.word().to_uppercase(), text.to_plain()));
@@ -195,13 +180,8 @@ impl Printer {
     }
 
     fn cell(&self, index: usize, cell: &Cell) -> comfy_table::Cell {
-        let mark = match cell.highlight {
-            Some(Highlight::Best) => " *",
-            Some(Highlight::Worst) => " !",
-            // Of a whole row that is the subject, the name says so.
-            Some(Highlight::Subject) if index == 0 => " <",
-            _ => "",
-        };
+        // Of a whole row that is the subject, the name says so.
+        let mark = if cell.subject && index == 0 { " <" } else { "" };
         let verdict = match cell.value {
             Value::Verdict { verdict, .. } => Some(verdict),
             _ => None,

@@ -19,7 +19,7 @@ pub struct Decomposition {
 }
 
 /// What the singular values of one channel say.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct SingularSpectrum {
     /// Name of the channel.
     pub channel: String,

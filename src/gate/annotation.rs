@@ -7,26 +7,21 @@ use super::{Judgement, Reproduction, Verdict};
 /// repository names it.
 pub fn annotations(file: &str, judgements: &[Judgement], reproductions: &[Reproduction]) -> String {
     let mut text = String::new();
+    let mut add = |verdict, place: String, title: String, message: &str| {
+        if let Some(level) = level(verdict) {
+            let (title, message) = (property(&title), data(message));
+            text += &format!("::{level} {place},title={title}::{message}\n");
+        }
+    };
     for judgement in judgements {
-        let Some(level) = level(judgement.verdict) else { continue };
-        let gate = &judgement.gate;
-        let message = format!("{}; {}", judgement.summary(), gate.why);
-        text.push_str(&format!(
-            "::{level} file={},line={},title={}::{}\n",
-            property(file),
-            gate.line,
-            property(&format!("{}: {}", gate.subject, judgement.verdict.word())),
-            data(&message)
-        ));
+        let (gate, verdict) = (&judgement.gate, judgement.verdict);
+        let place = format!("file={},line={}", property(file), gate.line);
+        let title = format!("{}: {}", gate.subject, verdict.word());
+        add(verdict, place, title, &format!("{}; {}", judgement.summary(), gate.why));
     }
-    for reproduction in reproductions {
-        let Some(level) = level(reproduction.verdict) else { continue };
-        text.push_str(&format!(
-            "::{level} file={},title={}::{}\n",
-            property(&reproduction.file),
-            property(&format!("{}: constants", reproduction.fit)),
-            data(&reproduction.detail)
-        ));
+    for constants in reproductions {
+        let place = format!("file={}", property(&constants.file));
+        add(constants.verdict, place, format!("{}: constants", constants.fit), &constants.detail);
     }
     let failed = judgements.iter().filter(|judgement| judgement.verdict == Verdict::Fail).count();
     text.push_str(&format!("::notice::{} gates, {failed} failed\n", judgements.len()));

@@ -3,15 +3,16 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use serde::Serialize;
+
 use super::Domain;
 
 /// One budget, as written in `fits/gates.toml`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Gate {
     /// Position in the file, from 1.
+    #[serde(skip)]
     pub index: usize,
-    /// Line of its `subject` in the file, from 1.
-    pub line: usize,
     /// A fit (`effect/name`), a family of fits (`effect/name`: its worst member), one member
     /// (`effect/name#label`), or an approximation of a scene (`scenes/name#approximation`).
     pub subject: String,
@@ -24,18 +25,22 @@ pub struct Gate {
     /// Largest value accepted: finite, > 0, in the metric's unit.
     pub limit: f64,
     /// The number measured when the limit was set, where it is recorded.
+    #[serde(rename = "recorded")]
     pub measured: Option<f64>,
     /// Value from which on the gate warns; at most `limit`.
     pub warn: Option<f64>,
     /// File whose constants are compared with the fitted ones, relative to the project; for the
     /// metric `drift` and for it only.
+    #[serde(skip)]
     pub shipped: Option<PathBuf>,
     /// Why the limit is what it is.
     pub why: String,
+    /// Line of its `subject` in the file, from 1.
+    pub line: usize,
 }
 
 /// What a gate measures of the errors, form minus target.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Metric {
     /// Largest magnitude.
@@ -63,34 +68,23 @@ pub enum Metric {
 }
 
 impl Metric {
-    /// Every metric, in the order of the documentation.
-    pub const ALL: [Self; 10] = [
-        Self::MaxAbs,
-        Self::Rms,
-        Self::Bias,
-        Self::P50,
-        Self::P95,
-        Self::P99,
-        Self::MaxRel,
-        Self::RelL2,
-        Self::Flip,
-        Self::Drift,
+    /// Every metric with its name in the file, in the order of the documentation.
+    pub const ALL: [(&str, Self); 10] = [
+        ("max_abs", Self::MaxAbs),
+        ("rms", Self::Rms),
+        ("bias", Self::Bias),
+        ("p50", Self::P50),
+        ("p95", Self::P95),
+        ("p99", Self::P99),
+        ("max_rel", Self::MaxRel),
+        ("rel_l2", Self::RelL2),
+        ("flip", Self::Flip),
+        ("drift", Self::Drift),
     ];
 
     /// Name in the file.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::MaxAbs => "max_abs",
-            Self::Rms => "rms",
-            Self::Bias => "bias",
-            Self::P50 => "p50",
-            Self::P95 => "p95",
-            Self::P99 => "p99",
-            Self::MaxRel => "max_rel",
-            Self::RelL2 => "rel_l2",
-            Self::Flip => "flip",
-            Self::Drift => "drift",
-        }
+        Self::ALL.iter().find(|(_, metric)| *metric == self).map_or("", |(name, _)| name)
     }
 }
 
@@ -101,7 +95,7 @@ impl fmt::Display for Metric {
 }
 
 /// In which arithmetic a gate evaluates the form.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Precision {
     /// The f32 constants in f64 arithmetic: the error of the form itself.

@@ -52,8 +52,8 @@ impl Check {
         proving: bool,
     ) -> Result<Self, GateError> {
         let refits = refit(of.fits, specs)?;
-        let constants = reproduce(of.project.root(), specs, &refits)?;
-        let mut evidence = Evidence::new(of.project, of.atlas, of.scenes, refits);
+        let constants = reproduce::reproduce(of.project.root(), specs, &refits)?;
+        let mut evidence = Evidence::new(of, refits);
         let judgements = judge(gates, &mut evidence, device)?;
         let proofs = if proving { Some(prove(gates, &mut evidence, device)?) } else { None };
         Ok(Self { gates: judgements, constants, proofs })

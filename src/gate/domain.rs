@@ -32,14 +32,18 @@ impl fmt::Display for Domain {
         match self {
             Self::Region(name) => f.write_str(name),
             Self::Box(domain) => {
-                for (place, interval) in domain.intervals.iter().enumerate() {
-                    let separator = if place == 0 { "" } else { "; " };
-                    let sampling::Interval { argument, from, to } = interval;
-                    write!(f, "{separator}{argument} = {from}:{to}")?;
-                }
-                Ok(())
+                let shown =
+                    |of: &sampling::Interval| format!("{} = {}:{}", of.argument, of.from, of.to);
+                let intervals: Vec<String> = domain.intervals.iter().map(shown).collect();
+                f.write_str(&intervals.join("; "))
             }
         }
+    }
+}
+
+impl serde::Serialize for Domain {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }
 

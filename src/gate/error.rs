@@ -14,42 +14,15 @@ pub enum GateError {
     /// The gate file is unusable.
     #[error(transparent)]
     File(#[from] GateFileError),
-    /// No spec has the name.
-    #[error(
-        "fits/gates.toml:{line}: gate {gate}, key subject: there is no spec and no form `{subject}`"
-    )]
-    UnknownSubject {
-        /// Position of the gate, from 1.
-        gate: usize,
-        /// Its line, from 1.
-        line: usize,
-        /// The subject.
-        subject: String,
-    },
-    /// The fit has no such member.
-    #[error(
-        "fits/gates.toml:{line}: gate {gate}, key subject: `{subject}` is no member; there are: \
-         {known}"
-    )]
-    UnknownMember {
-        /// Position of the gate, from 1.
-        gate: usize,
-        /// Its line, from 1.
-        line: usize,
-        /// The subject.
-        subject: String,
-        /// Labels of the members.
-        known: String,
-    },
-    /// The gate does not fit its subject.
-    #[error("fits/gates.toml:{line}: gate {gate} on {subject}: {what}")]
+    /// The gate does not fit its subject, or there is no such subject.
+    #[error("fits/gates.toml:{line}: gate {gate}{of}: {what}")]
     Mismatch {
         /// Position of the gate, from 1.
         gate: usize,
         /// Its line, from 1.
         line: usize,
-        /// The subject.
-        subject: String,
+        /// ` on subject`, or `, key subject` where it is the subject that is wrong.
+        of: String,
         /// Expected and got.
         what: String,
     },
@@ -86,13 +59,20 @@ impl From<RenderError> for GateError {
 }
 
 impl Gate {
-    /// A [`GateError::Mismatch`] of this gate.
+    /// That the gate does not fit its subject.
     pub(super) fn fault(&self, what: String) -> GateError {
-        GateError::Mismatch {
-            gate: self.index,
-            line: self.line,
-            subject: self.subject.clone(),
-            what,
-        }
+        let of = format!(" on {}", self.subject);
+        GateError::Mismatch { gate: self.index, line: self.line, of, what }
+    }
+
+    /// That there is no such subject.
+    pub(super) fn unknown(&self, what: String) -> GateError {
+        let of = ", key subject".to_owned();
+        GateError::Mismatch { gate: self.index, line: self.line, of, what }
+    }
+
+    /// That the subject has no such member.
+    pub(super) fn no_member(&self, known: &str) -> GateError {
+        self.unknown(format!("`{}` is no member; there are: {known}", self.subject))
     }
 }

@@ -2,17 +2,18 @@
 //! each made once.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::path::Path;
 use std::sync::Arc;
 
 use super::subject::{Instance, Lever, Subject};
-use super::{Domain, Gate, GateError, Metric, Refits, committed};
+use super::{Domain, Gate, GateError, Metric, Refits, ShippedConstants, Sources, reproduce};
 use crate::effect::{Candidate, Effect, Member, Reference, Yardstick};
 use crate::fit::Spec;
 use crate::fit::outcome::Outcome;
 use crate::fit::sampling::Sampling;
 use crate::fit::spec::Target;
-use crate::project::{Approximated, Project};
-use crate::render::Scenes;
+use crate::project::{Approximated, Subject as Standing};
 use crate::table::{Column, Table};
 use crate::validate::accuracy::{GroundTruth, Judged};
 use crate::validate::regions::Atlas;
@@ -20,56 +21,31 @@ use crate::validate::sampling::{self, Interval};
 
 /// The evidence of one check.
 #[derive(Debug)]
-pub struct Evidence<'r> {
-    project: &'r Project,
-    atlas: &'r Atlas,
+pub(super) struct Evidence<'r> {
+    pub(super) of: Sources<'r>,
     refits: Refits,
     families: BTreeMap<&'static str, Vec<Member>>,
     judged: BTreeMap<(&'static str, String), Arc<Judged>>,
-    standing: BTreeMap<String, Found<Standing>>,
-    scenes: &'r Scenes,
+    standing: BTreeMap<String, Found<Arc<Standing>>>,
 }
 
 /// Something, or why a gate on it fails.
 pub(super) type Found<T> = Result<T, String>;
 
-/// What is judged under the name of a fit or of a registered form.
-#[derive(Debug, Clone)]
-struct Standing {
-    spec: Option<Arc<Spec>>,
-    approximates: Approximated,
-    candidates: Vec<(Candidate, Vec<Lever>)>,
-}
-
 impl<'r> Evidence<'r> {
-    /// Evidence of `project`; `refits` are its specs, fitted again.
-    pub fn new(project: &'r Project, atlas: &'r Atlas, scenes: &'r Scenes, refits: Refits) -> Self {
-        Self {
-            project,
-            atlas,
-            refits,
-            families: BTreeMap::new(),
-            judged: BTreeMap::new(),
-            standing: BTreeMap::new(),
-            scenes,
-        }
-    }
-
-    pub(super) fn project(&self) -> &'r Project {
-        self.project
-    }
-
-    pub(super) fn scenes(&self) -> &'r Scenes {
-        self.scenes
+    pub(super) fn new(of: Sources<'r>, refits: Refits) -> Self {
+        let (families, judged) = (BTreeMap::new(), BTreeMap::new());
+        Self { of, refits, families, judged, standing: BTreeMap::new() }
     }
 
     /// Fits that the subject of a gate takes its constants from.
     pub(super) fn sources(&self, gate: &Gate) -> Vec<String> {
         let (name, _) = parted(&gate.subject);
-        match self.standing.get(name) {
-            Some(Ok(Standing { spec: Some(spec), .. })) => spec.constants.clone(),
-            _ => {
-                let entry = self.project.registry().form(name);
+        let standing = self.standing.get(name).and_then(|found| found.as_ref().ok());
+        match standing.and_then(|standing| standing.fitted.as_ref()) {
+            Some(fitted) => fitted.spec.constants.clone(),
+            None => {
+                let entry = self.of.project.registry().form(name);
                 entry.map_or_else(Vec::new, |entry| entry.constants_of.clone())
             }
         }
@@ -83,104 +59,90 @@ impl<'r> Evidence<'r> {
             Err(reason) => return Ok(Err(reason)),
         };
         let own_label = |name: &str| name.split_once('#').map_or("", |(_, label)| label).to_owned();
-        let labelled = match (&standing.approximates, &standing.candidates[..]) {
-            (Approximated::Family(family), [(candidate, levers)]) if standing.spec.is_none() => {
-                let members = self.members(gate, family)?;
-                let of =
-                    |member: &Member| (member.label.clone(), candidate.clone(), levers.clone());
-                members.iter().map(of).collect()
-            }
-            (_, all) => all
-                .iter()
-                .map(|(candidate, levers)| {
-                    (own_label(&candidate.name), candidate.clone(), levers.clone())
-                })
-                .collect::<Vec<_>>(),
-        };
-        let known =
-            || labelled.iter().map(|(label, ..)| label.as_str()).collect::<Vec<_>>().join(", ");
-        if let Some(wanted) = member
-            && !labelled.iter().any(|(label, ..)| label == wanted)
-        {
-            return Err(GateError::UnknownMember {
-                gate: gate.index,
-                line: gate.line,
-                subject: gate.subject.clone(),
-                known: known(),
-            });
+        let labelled: Vec<(String, &Candidate)> =
+            match (&standing.approximates, &standing.candidates[..]) {
+                (Approximated::Family(family), [one]) if standing.fitted.is_none() => {
+                    let members = self.members(gate, family)?;
+                    members.iter().map(|member| (member.label.clone(), one)).collect()
+                }
+                (_, all) => all.iter().map(|one| (own_label(&one.name), one)).collect(),
+            };
+        let labels: Vec<&str> = labelled.iter().map(|(label, _)| label.as_str()).collect();
+        if member.is_some_and(|wanted| !labels.contains(&wanted)) {
+            return Err(gate.no_member(&labels.join(", ")));
         }
+        let outcomes = standing.fitted.as_ref().map_or(&[][..], |fitted| fitted.result.outcomes());
         let mut instances = Vec::new();
-        for (label, candidate, levers) in labelled {
+        for (at, (label, candidate)) in labelled.iter().enumerate() {
             if member.is_some_and(|wanted| wanted != label) {
                 continue;
             }
             let target = match gate.metric {
                 Metric::Drift => GroundTruth::none(),
-                _ => self.target(gate, &standing, &label, &candidate)?,
+                _ => self.target(gate, &standing, label, candidate)?,
             };
-            let label = (!label.is_empty()).then_some(label);
-            instances.push(Instance { label, candidate, target, levers });
+            instances.push(Instance {
+                label: (!label.is_empty()).then(|| label.clone()),
+                candidate: (*candidate).clone(),
+                target,
+                levers: levers(outcomes.get(at), candidate),
+            });
         }
-        Ok(Ok(Subject { instances }))
+        let shipped = match gate.metric {
+            Metric::Drift if instances.len() != 1 => {
+                Err("a family ships no single set of constants; name a member".to_owned())
+            }
+            Metric::Drift => self.shipped(gate).map(Some),
+            _ => Ok(None),
+        };
+        Ok(shipped.map(|shipped| Subject { instances, shipped }))
+    }
+
+    /// The constants in the file of a gate on their drift.
+    fn shipped(&self, gate: &Gate) -> Found<ShippedConstants> {
+        let file = gate.shipped.as_deref().unwrap_or(Path::new(""));
+        let shown = file.display().to_string();
+        let text = std::fs::read_to_string(self.of.project.root().join(file));
+        let text = text.map_err(|error| format!("{shown}: {error}"))?;
+        Ok(ShippedConstants::read(&shown, &text))
     }
 
     /// The candidates called `name`: the committed result of a spec, where it stands, or a registered
     /// form by itself.
-    fn standing(&mut self, gate: &Gate, name: &str) -> Result<Found<Standing>, GateError> {
+    fn standing(&mut self, gate: &Gate, name: &str) -> Result<Found<Arc<Standing>>, GateError> {
         if let Some(known) = self.standing.get(name) {
             return Ok(known.clone());
         }
-        let path = self.project.fits().join(format!("{name}.toml"));
+        let path = self.of.project.fits().join(format!("{name}.toml"));
         let found = if !name.contains("..") && path.is_file() {
             self.fitted(Spec::read(&path)?)?
         } else {
-            let unknown = || GateError::UnknownSubject {
-                gate: gate.index,
-                line: gate.line,
-                subject: gate.subject.clone(),
-            };
-            let entry = self.project.registry().form(name).ok_or_else(unknown)?;
-            let subject = self.project.subject_of_form(entry)?.ok_or_else(unknown)?;
-            let lever = |candidate: Candidate| {
-                let levers = levers(None, &candidate);
-                (candidate, levers)
-            };
-            Ok(Standing {
-                spec: None,
-                approximates: subject.approximates,
-                candidates: subject.candidates.into_iter().map(lever).collect(),
-            })
+            let unknown =
+                || gate.unknown(format!("there is no spec and no form `{}`", gate.subject));
+            let entry = self.of.project.registry().form(name).ok_or_else(unknown)?;
+            Ok(self.of.project.subject_of_form(entry)?.ok_or_else(unknown)?)
         };
+        let found = found.map(Arc::new);
         self.standing.insert(name.to_owned(), found.clone());
         Ok(found)
     }
 
     fn fitted(&self, spec: Spec) -> Result<Found<Standing>, GateError> {
         let refit = self.refits.get(&spec.name);
-        let result = match committed::result(self.project.root(), &spec, refit)? {
+        let result = match reproduce::committed(self.of.project.root(), &spec, refit)? {
             Ok(result) => result,
             Err(reason) => return Ok(Err(reason)),
         };
         let bad: Vec<String> = result
             .outcomes()
             .iter()
-            .filter(|outcome| !committed::stands(outcome.status))
+            .filter(|outcome| !reproduce::stands(outcome.status))
             .map(|outcome| format!("{} is {}", outcome.name, outcome.status.words()))
             .collect();
         if !bad.is_empty() {
             return Ok(Err(bad.join("; ")));
         }
-        let subject = self.project.subject_of(spec.clone(), result)?;
-        let outcomes: &[Outcome] =
-            subject.fitted.as_ref().map_or(&[], |fitted| fitted.result.outcomes());
-        let candidates = subject.candidates.iter().zip(outcomes);
-        Ok(Ok(Standing {
-            candidates: candidates
-                .map(|(candidate, outcome)| (candidate.clone(), levers(Some(outcome), candidate)))
-                .collect(),
-            spec: Some(Arc::new(spec)),
-            approximates: subject.approximates,
-        }))
+        Ok(Ok(self.of.project.subject_of(spec, result)?))
     }
 
     fn target(
@@ -191,9 +153,9 @@ impl<'r> Evidence<'r> {
         candidate: &Candidate,
     ) -> Result<GroundTruth, GateError> {
         match &standing.approximates {
-            Approximated::Reference(name) => {
-                Ok(self.judged(gate, standing.spec.as_deref(), name)?.target(&candidate.form)?)
-            }
+            Approximated::Reference(name) => Ok(self
+                .judged(gate, standing.fitted.as_ref().map(|fitted| &fitted.spec), name)?
+                .target(&candidate.form)?),
             Approximated::Family(name) => {
                 let members = self.members(gate, name)?;
                 let member =
@@ -203,9 +165,10 @@ impl<'r> Evidence<'r> {
                 let rows = rows_inside(gate, &member.table)?;
                 Ok(GroundTruth::of_table(&rows, &candidate.form)?)
             }
-            Approximated::Table => match standing.spec.as_ref().map(|spec| &spec.target) {
+            Approximated::Table => match standing.fitted.as_ref().map(|fitted| &fitted.spec.target)
+            {
                 Some(Target::File { path, column, .. }) => {
-                    let table = Table::read_csv(self.project.root().join(path))?;
+                    let table = Table::read_csv(self.of.project.root().join(path))?;
                     let mut rows = rows_inside(gate, &table)?;
                     rename(&mut rows, column)?;
                     Ok(GroundTruth::of_table(&rows, &candidate.form)?)
@@ -222,14 +185,12 @@ impl<'r> Evidence<'r> {
         spec: Option<&Spec>,
         name: &str,
     ) -> Result<Arc<Judged>, GateError> {
-        let (effect, reference) = self
-            .project
-            .registry()
-            .reference(name)
-            .ok_or_else(|| gate.fault(format!("its target `{name}` is no reference")))?;
+        let found = self.of.project.registry().reference(name);
+        let (effect, reference) =
+            found.ok_or_else(|| gate.fault(format!("its target `{name}` is no reference")))?;
         match (&gate.domain, spec.and_then(|spec| spec.region.as_ref())) {
             (Some(Domain::Region(name)), _) | (None, Some(name)) => {
-                return region(gate, effect, reference, name, self.atlas);
+                return region(gate, effect, reference, name, self.of.atlas);
             }
             _ => {}
         }
@@ -247,16 +208,13 @@ impl<'r> Evidence<'r> {
 
     /// Held-out members of a family, made once.
     fn members(&mut self, gate: &Gate, name: &str) -> Result<&[Member], GateError> {
-        let (_, family) = self
-            .project
-            .registry()
-            .family(name)
-            .ok_or_else(|| gate.fault(format!("its target `{name}` is no family")))?;
-        if !self.families.contains_key(family.name) {
-            let members = (family.members)(&self.project.data(), true)?;
-            self.families.insert(family.name, members);
-        }
-        Ok(self.families.get(family.name).map_or(&[], Vec::as_slice))
+        let found = self.of.project.registry().family(name);
+        let (_, family) =
+            found.ok_or_else(|| gate.fault(format!("its target `{name}` is no family")))?;
+        Ok(match self.families.entry(family.name) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => place.insert((family.members)(&self.of.project.data(), true)?),
+        })
     }
 }
 
@@ -345,20 +303,11 @@ fn region(
     name: &str,
     atlas: &Atlas,
 ) -> Result<Arc<Judged>, GateError> {
-    let region = effect
-        .regions
-        .iter()
-        .chain(effect.hard_cases)
-        .find(|region| region.name == name)
-        .ok_or_else(|| {
-            let all = effect.regions.iter().chain(effect.hard_cases);
-            let known: Vec<&str> = all.map(|region| region.name).collect();
-            gate.fault(format!(
-                "domain: {} has no region `{name}`; it has {}",
-                effect.name,
-                known.join(", ")
-            ))
-        })?;
+    let all = || effect.regions.iter().chain(effect.hard_cases);
+    let region = all().find(|region| region.name == name).ok_or_else(|| {
+        let known = all().map(|region| region.name).collect::<Vec<_>>().join(", ");
+        gate.fault(format!("domain: {} has no region `{name}`; it has {known}", effect.name))
+    })?;
     atlas
         .judged(region, reference)?
         .ok_or_else(|| gate.fault(format!("domain: {name} has no points for {}", reference.name)))
@@ -380,12 +329,10 @@ fn rows_inside(gate: &Gate, table: &Table) -> Result<Table, GateError> {
             *keep &= (interval.from..=interval.to).contains(value);
         }
     }
-    let kept = |values: &[f64]| -> Vec<f64> {
-        values.iter().zip(&keep).filter(|(_, keep)| **keep).map(|(value, _)| *value).collect()
-    };
     let mut inside = table.clone();
     for column in &mut inside.columns {
-        column.values = kept(&column.values);
+        let mut keep = keep.iter();
+        column.values.retain(|_| keep.next().is_some_and(|keep| *keep));
         column.uncertainty = None;
     }
     if inside.rows() == 0 {

@@ -18,7 +18,7 @@ pub enum GateFileError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// The text is no TOML, or a key is missing, unknown or of the wrong type.
+    /// The text is no TOML, a key is missing, unknown or of the wrong type, or a value makes no sense.
     #[error("{file}:{line}: {place}: {message}")]
     Syntax {
         /// The file.
@@ -28,20 +28,6 @@ pub enum GateFileError {
         /// `gate 3, key limit`, as far as known.
         place: String,
         /// What is wrong, and what was expected.
-        message: String,
-    },
-    /// A value makes no sense.
-    #[error("{file}:{line}: gate {gate}, key {key}: {message}")]
-    Value {
-        /// The file.
-        file: String,
-        /// Line, from 1.
-        line: usize,
-        /// Position of the gate in the file, from 1.
-        gate: usize,
-        /// The key.
-        key: &'static str,
-        /// Expected and got.
         message: String,
     },
     /// There is nothing to hold to.
@@ -118,74 +104,49 @@ impl Reading<'_> {
         let line = line_at(self.text, raw.subject.span().start);
         let subject = self.filled("subject", raw.subject)?;
         let why = self.filled("why", raw.why)?;
-        let metric =
-            self.named("metric", &raw.metric, &Metric::ALL.map(|metric| (metric.name(), metric)))?;
+        let metric = self.named("metric", &raw.metric, &Metric::ALL)?;
         let precisions = [Precision::F64, Precision::F32, Precision::Device]
             .map(|precision| (precision.to_string(), precision));
         let precision = match &raw.precision {
             Some(name) => self.named("precision", name, &precisions)?,
             None => Precision::default(),
         };
-        let domain = match &raw.domain {
-            Some(text) => Some(
-                Domain::parse(text.get_ref())
-                    .map_err(|error| self.wrong("domain", text, error.to_string()))?,
-            ),
-            None => None,
-        };
+        let domain = raw.domain.as_ref().map(|text| {
+            Domain::parse(text.get_ref())
+                .map_err(|error| self.wrong("domain", text, error.to_string()))
+        });
+        let domain = domain.transpose()?;
         let limit = *raw.limit.get_ref();
-        if !limit.is_finite() || limit <= 0.0 {
-            let message = format!("expected a finite number > 0, got {limit}");
-            return Err(self.wrong("limit", &raw.limit, message));
+        let message = format!("expected a finite number > 0, got {limit}");
+        self.ensure(limit.is_finite() && limit > 0.0, "limit", &raw.limit, message)?;
+        for (key, number) in [("measured", &raw.measured), ("warn", &raw.warn)] {
+            let Some(number) = number else { continue };
+            let got = number.get_ref();
+            let message = format!("expected a number from 0 to the limit {limit}, got {got}");
+            self.ensure((0.0..=limit).contains(got), key, number, message)?;
         }
-        if let Some(measured) = &raw.measured {
-            let value = *measured.get_ref();
-            if !value.is_finite() || value < 0.0 || value > limit {
-                let message = format!("expected a number from 0 to the limit {limit}, got {value}");
-                return Err(self.wrong("measured", measured, message));
-            }
-        }
-        if let Some(warn) = &raw.warn {
-            let value = *warn.get_ref();
-            if !value.is_finite() || value < 0.0 || value > limit {
-                let message = format!("expected a number from 0 to the limit {limit}, got {value}");
-                return Err(self.wrong("warn", warn, message));
-            }
-        }
-        if let (Some(domain), Metric::Drift) = (&raw.domain, metric) {
-            let message = "drift compares constants, over no domain".to_owned();
-            return Err(self.wrong("domain", domain, message));
-        }
+        let drift = metric == Metric::Drift;
         let of_pictures = subject.starts_with(SCENES);
+        if let Some(domain) = &raw.domain {
+            let message = "drift compares constants, over no domain";
+            self.ensure(!drift, "domain", domain, message)?;
+            let message = "a scene is judged over all of its pixels";
+            self.ensure(!of_pictures, "domain", domain, message)?;
+        }
         let pictured = [Metric::RelL2, Metric::Rms, Metric::MaxAbs, Metric::Bias, Metric::Flip];
-        if of_pictures != (metric == Metric::Flip) && !(of_pictures && pictured.contains(&metric)) {
-            let message = if of_pictures {
-                format!("a scene has rel_l2, rms, max_abs, bias and flip, got {metric}")
-            } else {
-                "flip is a metric of scenes, `scenes/name#approximation`".to_owned()
-            };
-            return Err(self.wrong("metric", &raw.metric, message));
+        let message = format!("a scene has rel_l2, rms, max_abs, bias and flip, got {metric}");
+        self.ensure(!of_pictures || pictured.contains(&metric), "metric", &raw.metric, message)?;
+        let message = "flip is a metric of scenes, `scenes/name#approximation`";
+        self.ensure(of_pictures || metric != Metric::Flip, "metric", &raw.metric, message)?;
+        if let Some(text) = &raw.precision {
+            let message = "a picture is made in f32 or on the device";
+            self.ensure(!of_pictures || precision != Precision::F64, "precision", text, message)?;
         }
-        if let (Some(precision_text), Precision::F64, true) =
-            (&raw.precision, precision, of_pictures)
-        {
-            let message = "a picture is made in f32 or on the device".to_owned();
-            return Err(self.wrong("precision", precision_text, message));
-        }
-        if let (Some(domain), true) = (&raw.domain, of_pictures) {
-            let message = "a scene is judged over all of its pixels".to_owned();
-            return Err(self.wrong("domain", domain, message));
-        }
-        match (&raw.shipped, metric) {
-            (None, Metric::Drift) => {
-                let message = "drift needs `shipped = \"file\"` beside it".to_owned();
-                return Err(self.wrong("metric", &raw.metric, message));
-            }
-            (Some(shipped), metric) if metric != Metric::Drift => {
-                let message = format!("is for the metric drift only, not for {metric}");
-                return Err(self.wrong("shipped", shipped, message));
-            }
-            _ => {}
+        let message = "drift needs `shipped = \"file\"` beside it";
+        self.ensure(!drift || raw.shipped.is_some(), "metric", &raw.metric, message)?;
+        if let Some(shipped) = &raw.shipped {
+            let message = format!("is for the metric drift only, not for {metric}");
+            self.ensure(drift, "shipped", shipped, message)?;
         }
         Ok(Gate {
             index: self.index,
@@ -202,16 +163,14 @@ impl Reading<'_> {
         })
     }
 
-    fn filled(&self, key: &'static str, text: Spanned<String>) -> Result<String, GateFileError> {
-        if text.get_ref().trim().is_empty() {
-            return Err(self.wrong(key, &text, "is empty".to_owned()));
-        }
+    fn filled(&self, key: &str, text: Spanned<String>) -> Result<String, GateFileError> {
+        self.ensure(!text.get_ref().trim().is_empty(), key, &text, "is empty")?;
         Ok(text.into_inner())
     }
 
     fn named<N: AsRef<str>, T: Copy>(
         &self,
-        key: &'static str,
+        key: &str,
         name: &Spanned<String>,
         known: &[(N, T)],
     ) -> Result<T, GateFileError> {
@@ -223,13 +182,22 @@ impl Reading<'_> {
         })
     }
 
-    fn wrong<T>(&self, key: &'static str, at: &Spanned<T>, message: String) -> GateFileError {
-        GateFileError::Value {
+    fn ensure<T>(
+        &self,
+        good: bool,
+        key: &str,
+        at: &Spanned<T>,
+        message: impl Into<String>,
+    ) -> Result<(), GateFileError> {
+        if good { Ok(()) } else { Err(self.wrong(key, at, message)) }
+    }
+
+    fn wrong<T>(&self, key: &str, at: &Spanned<T>, message: impl Into<String>) -> GateFileError {
+        GateFileError::Syntax {
             file: self.file.to_owned(),
             line: line_at(self.text, at.span().start),
-            gate: self.index,
-            key,
-            message,
+            place: format!("gate {}, key {key}", self.index),
+            message: message.into(),
         }
     }
 }

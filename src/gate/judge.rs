@@ -2,12 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::drift::drift;
-use super::subject::{Subject, reached, worst};
-use super::{Evidence, Gate, GateError, Judgement, Metric, Precision};
+use super::evidence::Found;
+use super::subject::Subject;
+use super::{Evidence, Gate, GateError, Judgement, Precision, Reached};
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
-use crate::validate::ValidateError;
 
 /// Judges every gate, in the order of the file.
 ///
@@ -15,7 +14,7 @@ use crate::validate::ValidateError;
 /// [`GateError`] if a gate names what does not exist or does not fit its subject, or something
 /// that it needs cannot be read or evaluated. A gate that merely cannot be measured as the project
 /// stands fails with the reason; one that lacks a device is not measured.
-pub fn judge(
+pub(super) fn judge(
     gates: &[Gate],
     evidence: &mut Evidence<'_>,
     device: &Measured<Device>,
@@ -24,7 +23,7 @@ pub fn judge(
     let prepared = prepared.collect::<Result<Vec<_>, _>>()?;
     let judged = prepared.into_par_iter().zip(gates).map(|(prepared, gate)| match prepared {
         Prepared::Judged(judgement) => Ok(*judgement),
-        Prepared::OnLanes(subject) => on_lanes_or_device(gate, &subject, None),
+        Prepared::OnLanes(subject) => judgement(gate, &subject, None),
     });
     judged.collect()
 }
@@ -41,54 +40,45 @@ fn prepare(
     device: &Measured<Device>,
 ) -> Result<Prepared, GateError> {
     let judged = |judgement| Ok(Prepared::Judged(Box::new(judgement)));
+    let on_device = gate.precision == Precision::Device;
     if gate.scene().is_some() {
-        if let (Precision::Device, Measured::NotMeasured(reason)) = (gate.precision, device) {
-            return judged(Judgement::not_measured(gate.clone(), reason.clone()));
-        }
-        let reached = evidence.scene(gate)?.reached(gate, device.value())?;
-        return judged(Judgement::of(gate.clone(), reached));
-    }
-    let subject = match evidence.subject(gate)? {
-        Ok(subject) => subject,
-        Err(reason) => return judged(Judgement::failed(gate.clone(), reason)),
-    };
-    if gate.metric == Metric::Drift {
-        return judged(match drift(gate, evidence.project().root(), &subject) {
-            Ok(reached) => Judgement::of(gate.clone(), reached),
-            Err(reason) => Judgement::failed(gate.clone(), reason),
+        return judged(match device {
+            Measured::NotMeasured(reason) if on_device => {
+                Judgement::not_measured(gate.clone(), reason)
+            }
+            _ => {
+                let reached = evidence.scene(gate)?.reached(gate, None, device.value())?;
+                Judgement::of(gate.clone(), reached)
+            }
         });
     }
-    match (gate.precision, device) {
-        (Precision::Device, Measured::NotMeasured(reason)) => {
-            judged(Judgement::not_measured(gate.clone(), reason.clone()))
+    match (evidence.subject(gate)?, device) {
+        (Err(reason), _) => judged(Judgement::failed(gate.clone(), reason)),
+        (Ok(subject), _) if !on_device || subject.shipped.is_some() => {
+            Ok(Prepared::OnLanes(Box::new(subject)))
         }
-        (Precision::Device, Measured::Value(device)) => {
-            judged(on_lanes_or_device(gate, &subject, Some(device))?)
+        (Ok(_), Measured::NotMeasured(reason)) => {
+            judged(Judgement::not_measured(gate.clone(), reason))
         }
-        (Precision::F64 | Precision::F32, _) => Ok(Prepared::OnLanes(Box::new(subject))),
+        (Ok(subject), Measured::Value(device)) => judged(judgement(gate, &subject, Some(device))?),
     }
 }
 
-fn on_lanes_or_device(
+/// Holds the worst fit of the subject against the gate; a value that is not a number is worse than any.
+fn judgement(
     gate: &Gate,
     subject: &Subject,
     device: Option<&Device>,
 ) -> Result<Judgement, GateError> {
-    Ok(match measure(gate, subject, device)? {
-        Some(reached) => Judgement::of(gate.clone(), reached),
-        None => Judgement::failed(gate.clone(), "the fit has no members"),
+    let all = subject.instances.iter().map(|of| subject.reached(of, gate, None, device));
+    let all: Found<Vec<Reached>> = all.collect::<Result<Vec<_>, _>>()?.into_iter().collect();
+    let worse = |worst: &Reached, other: &Reached| {
+        !worst.value.is_nan() && (other.value.is_nan() || other.value > worst.value)
+    };
+    let worst = |worst, other| if worse(&worst, &other) { other } else { worst };
+    Ok(match all.map(|all| all.into_iter().reduce(worst)) {
+        Ok(Some(reached)) => Judgement::of(gate.clone(), reached),
+        Ok(None) => Judgement::failed(gate.clone(), "the fit has no members"),
+        Err(reason) => Judgement::failed(gate.clone(), reason),
     })
-}
-
-fn measure(
-    gate: &Gate,
-    subject: &Subject,
-    device: Option<&Device>,
-) -> Result<Option<super::Reached>, ValidateError> {
-    let all = subject.instances.iter().map(|instance| {
-        let label = instance.label.as_deref();
-        let (candidate, target) = (&instance.candidate, &instance.target);
-        reached(label, candidate, target, gate.metric, gate.precision, device)
-    });
-    Ok(worst(all.collect::<Result<Vec<_>, _>>()?))
 }

@@ -12,21 +12,15 @@ pub fn junit(judgements: &[Judgement], reproductions: &[Reproduction]) -> String
     let mut gates = TestSuite::new("gates");
     for judgement in judgements {
         let gate = &judgement.gate;
-        let name = format!("{} {} {}", gate.subject, gate.metric, gate.precision);
-        let name = match &gate.domain {
-            Some(domain) => format!("{name} {domain}"),
-            None => name,
-        };
+        let domain = gate.domain.as_ref().map_or(String::new(), |domain| format!(" {domain}"));
+        let name = format!("{} {} {}{domain}", gate.subject, gate.metric, gate.precision);
         gates.add_test_case(case(&name, judgement.verdict, &judgement.summary(), &gate.why));
     }
     let mut constants = TestSuite::new("constants reproduce");
     for reproduction in reproductions {
-        constants.add_test_case(case(
-            &reproduction.fit,
-            reproduction.verdict,
-            &reproduction.detail,
-            "a refit gives the committed constants",
-        ));
+        let Reproduction { fit, verdict, detail, .. } = reproduction;
+        let why = "a refit gives the committed constants";
+        constants.add_test_case(case(fit, *verdict, detail, why));
     }
     let mut report = Report::new("striae check");
     report.add_test_suites([gates, constants]);

@@ -5,11 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::subject::{Instance, Lever, Subject, reached};
-use super::{Evidence, Gate, GateError, Metric, Precision, SCENES, ShippedConstants};
+use super::subject::{Instance, Lever, Subject};
+use super::{Evidence, Gate, GateError, Metric, Precision, SCENES};
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
-use crate::numeric::ulp::ulp_distance_f32;
+use crate::render::shading::Moved;
 
 /// Relative steps, tried in this order with both signs. A constant that can move by 30 % unnoticed
 /// is not guarded.
@@ -55,7 +55,7 @@ pub struct Proofs {
 ///
 /// # Errors
 /// [`GateError`], as for [`super::judge`].
-pub fn prove(
+pub(super) fn prove(
     gates: &[Gate],
     evidence: &mut Evidence<'_>,
     device: &Measured<Device>,
@@ -71,16 +71,14 @@ pub fn prove(
             continue;
         }
         match evidence.subject(gate)? {
-            Ok(subject) => tasks.push((gate, subject, shipped_text(gate, evidence))),
+            Ok(subject) => tasks.push((gate, subject)),
             Err(reason) => {
                 found.defects.push(format!("{} cannot be tried: {reason}", name(gate)));
             }
         }
     }
     // Beside each other on lanes; one after the other on a device, whose queue is one.
-    let prove = |(gate, subject, shipped): &(&Gate, Subject, Option<ShippedConstants>)| {
-        prove_subject(gate, subject, shipped.as_ref(), device.value())
-    };
+    let prove = |(gate, subject): &(&Gate, Subject)| prove_subject(gate, subject, device.value());
     let on_device = |gate: &Gate| gate.precision == Precision::Device && device.value().is_some();
     let lanes: Vec<_> = tasks
         .par_iter()
@@ -105,11 +103,17 @@ pub fn prove(
 fn prove_subject(
     gate: &Gate,
     subject: &Subject,
-    shipped: Option<&ShippedConstants>,
     device: Option<&Device>,
 ) -> Result<Result<Vec<Proof>, String>, GateError> {
-    if fails(gate, subject, shipped, device)? {
-        return Ok(Err(format!("{} fails as it stands: nothing to show", name(gate))));
+    // What cannot be measured fails the gate, as what is not a number does.
+    let value = |instance: &Instance, moved: Option<(&Lever, f64)>| -> Result<f64, GateError> {
+        let reached = subject.reached(instance, gate, moved, device)?;
+        Ok(reached.map_or(f64::NAN, |reached| reached.value))
+    };
+    for instance in &subject.instances {
+        if beyond(value(instance, None)?, gate.limit) {
+            return Ok(Err(format!("{} fails as it stands: nothing to show", name(gate))));
+        }
     }
     let mut levers: Vec<&Lever> = Vec::new();
     for lever in subject.instances.iter().flat_map(|instance| &instance.levers) {
@@ -118,9 +122,12 @@ fn prove_subject(
         }
     }
     let proof = |lever: &Lever| {
-        let mut proof = unproved(gate, lever, subject.instances.len());
+        let mut proof = unproved(gate, lever.name(), subject.instances.len());
         for instance in &subject.instances {
-            proof.take(trip(gate, instance, lever, shipped, device)?);
+            proof.take(smallest(|step| {
+                let value = value(instance, Some((lever, step)))?;
+                Ok::<_, GateError>(beyond(value, gate.limit).then_some((step, value)))
+            })?);
         }
         Ok(proof)
     };
@@ -136,20 +143,18 @@ fn prove_scene(
     found: &mut Proofs,
 ) -> Result<(), GateError> {
     let subject = evidence.scene(gate)?;
-    if beyond(subject.reached(gate, device.value())?.value, gate.limit) {
+    if beyond(subject.reached(gate, None, device.value())?.value, gate.limit) {
         found.defects.push(format!("{} fails as it stands: nothing to show", name(gate)));
         return Ok(());
     }
-    let lever = Lever::Output;
-    let mut proof = unproved(gate, &lever, 1);
+    let mut proof = unproved(gate, Lever::Output.name(), 1);
     let constants = subject.constants();
-    let trip = smallest(|size| {
-        for step in [size, -size] {
-            for constant in &constants {
-                let value = subject.perturbed(gate, constant, step, device.value())?.value;
-                if beyond(value, gate.limit) {
-                    return Ok(Some((constant.clone(), step, value)));
-                }
+    let trip = smallest(|step| {
+        for constant in &constants {
+            let moved = Some(Moved { constant, step });
+            let value = subject.reached(gate, moved, device.value())?.value;
+            if beyond(value, gate.limit) {
+                return Ok(Some((constant.clone(), step, value)));
             }
         }
         Ok::<_, GateError>(None)
@@ -166,13 +171,13 @@ fn name(gate: &Gate) -> String {
     format!("gate {} (line {}) on {} {}", gate.index, gate.line, gate.subject, gate.metric)
 }
 
-fn unproved(gate: &Gate, lever: &Lever, of: usize) -> Proof {
+fn unproved(gate: &Gate, constant: &str, of: usize) -> Proof {
     Proof {
         gate: gate.index,
         line: gate.line,
         subject: gate.subject.clone(),
         metric: gate.metric,
-        constant: lever.name().to_owned(),
+        constant: constant.to_owned(),
         step: None,
         value: None,
         limit: gate.limit,
@@ -193,62 +198,18 @@ impl Proof {
     }
 }
 
-/// Whether the gate fails unperturbed.
-fn fails(
-    gate: &Gate,
-    subject: &Subject,
-    shipped: Option<&ShippedConstants>,
-    device: Option<&Device>,
-) -> Result<bool, GateError> {
-    for instance in &subject.instances {
-        let levers = instance.levers.iter();
-        let values = match shipped {
-            Some(shipped) => levers.map(|lever| drifted(instance, lever, 0.0, shipped)).collect(),
-            None => {
-                let Instance { candidate, target, .. } = instance;
-                vec![reached(None, candidate, target, gate.metric, gate.precision, device)?.value]
-            }
-        };
-        if values.iter().any(|value| beyond(*value, gate.limit)) {
-            return Ok(true);
-        }
-    }
-    Ok(false)
-}
-
 fn beyond(value: f64, limit: f64) -> bool {
     value.is_nan() || value > limit
 }
 
-/// The first step at which the gate fails, and the value there.
-fn trip(
-    gate: &Gate,
-    instance: &Instance,
-    lever: &Lever,
-    shipped: Option<&ShippedConstants>,
-    device: Option<&Device>,
-) -> Result<Option<(f64, f64)>, GateError> {
-    smallest(|size| {
-        for step in [size, -size] {
-            let value = match shipped {
-                Some(shipped) => drifted(instance, lever, step, shipped),
-                None => {
-                    let (form, target) = instance.perturbed(lever, step);
-                    reached(None, &form, &target, gate.metric, gate.precision, device)?.value
-                }
-            };
-            if beyond(value, gate.limit) {
-                return Ok(Some((step, value)));
-            }
-        }
-        Ok(None)
-    })
-}
-
-/// What trips at the smallest of [`STEPS`] at which something does.
+/// What trips at the smallest of [`STEPS`], of either sign, at which something does.
 ///
 /// Looked for by bisection, since an error grows with the step; where that finds nothing, step by step.
 fn smallest<T, E>(mut trips: impl FnMut(f64) -> Result<Option<T>, E>) -> Result<Option<T>, E> {
+    let mut trips = |size: f64| match trips(size)? {
+        None => trips(-size),
+        found => Ok(found),
+    };
     let (mut low, mut high) = (0, STEPS.len());
     let mut found = None;
     let mut tried = [false; STEPS.len()];
@@ -266,27 +227,6 @@ fn smallest<T, E>(mut trips: impl FnMut(f64) -> Result<Option<T>, E>) -> Result<
         }
     }
     Ok(found)
-}
-
-fn shipped_text(gate: &Gate, evidence: &Evidence<'_>) -> Option<ShippedConstants> {
-    let file = gate.shipped.as_deref()?;
-    let text = std::fs::read_to_string(evidence.project().root().join(file)).unwrap_or_default();
-    Some(ShippedConstants::read(&file.display().to_string(), &text))
-}
-
-/// Drift of the lever's own constants after the step; not a number, which fails, where the file has
-/// none.
-fn drifted(instance: &Instance, lever: &Lever, step: f64, shipped: &ShippedConstants) -> f64 {
-    let Lever::Constant { places, .. } = lever else { return 0.0 };
-    let (moved, _) = instance.perturbed(lever, step);
-    let parameters = moved.form.parameters().iter().zip(&moved.constants_f32).enumerate();
-    parameters
-        .filter(|(place, _)| places.contains(place))
-        .map(|(_, (parameter, value))| match shipped.value(&parameter.name) {
-            Ok(there) => f64::from(ulp_distance_f32(there, *value)),
-            Err(_) => f64::NAN,
-        })
-        .fold(0.0, |worst: f64, other| if other.is_nan() || other > worst { other } else { worst })
 }
 
 /// What the proofs leave open. A constant that a fit takes from another is guarded where it is

@@ -6,10 +6,11 @@ use std::path::Path;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{Verdict, committed};
-use crate::fit::outcome::Outcome;
+use super::Verdict;
+use crate::fit::outcome::{FitProvenance, Outcome, Status};
 use crate::fit::run::Context;
 use crate::fit::{FitError, FitResult, Spec, run_spec};
+use crate::table::store::sha256_hex;
 
 /// How far an f64 constant may be from the committed one, relative: another machine's libm moves
 /// the last digits of an optimum, and f32 constants do not move with them.
@@ -29,13 +30,13 @@ pub struct Reproduction {
 }
 
 /// What every spec gives today, by name.
-pub type Refits = BTreeMap<String, FitResult>;
+pub(super) type Refits = BTreeMap<String, FitResult>;
 
 /// Runs every spec in memory.
 ///
 /// # Errors
 /// The [`FitError`] of the first spec, in their order, that cannot be run.
-pub fn refit(context: &Context, specs: &[Spec]) -> Result<Refits, FitError> {
+pub(super) fn refit(context: &Context, specs: &[Spec]) -> Result<Refits, FitError> {
     let run = |spec: &Spec| Ok((spec.name.clone(), run_spec(spec, context)?));
     let results: Vec<Result<(String, FitResult), FitError>> = specs.par_iter().map(run).collect();
     results.into_iter().collect()
@@ -46,7 +47,7 @@ pub fn refit(context: &Context, specs: &[Spec]) -> Result<Refits, FitError> {
 ///
 /// # Errors
 /// [`FitError`] for a result file that cannot be read.
-pub fn reproduce(
+pub(super) fn reproduce(
     root: &Path,
     specs: &[Spec],
     refits: &Refits,
@@ -55,7 +56,7 @@ pub fn reproduce(
 }
 
 fn one(root: &Path, spec: &Spec, refit: Option<&FitResult>) -> Result<Reproduction, FitError> {
-    let compared = match (committed::result(root, spec, refit)?, refit) {
+    let compared = match (committed(root, spec, refit)?, refit) {
         (Err(reason), _) => Err(reason),
         (Ok(_), None) => Err("it was not fitted again".to_owned()),
         (Ok(committed), Some(refit)) => compare(committed.outcomes(), refit.outcomes()),
@@ -64,8 +65,7 @@ fn one(root: &Path, spec: &Spec, refit: Option<&FitResult>) -> Result<Reproducti
         Ok(count) => (Verdict::Pass, format!("{count} constants reproduce")),
         Err(reason) => (Verdict::Fail, reason),
     };
-    let file = format!("fits/{}.json", spec.name);
-    Ok(Reproduction { fit: spec.name.clone(), file, verdict, detail })
+    Ok(Reproduction { fit: spec.name.clone(), file: file(spec), verdict, detail })
 }
 
 fn compare(committed: &[Outcome], refit: &[Outcome]) -> Result<usize, String> {
@@ -94,4 +94,47 @@ fn compare(committed: &[Outcome], refit: &[Outcome]) -> Result<usize, String> {
         }
     }
     Ok(count)
+}
+
+/// The result file of a spec, relative to the project.
+fn file(spec: &Spec) -> String {
+    format!("fits/{}.json", spec.name)
+}
+
+/// Whether a fit that ended so gives the constants that its spec asks for: the optimum, or the
+/// optimum under a bound. Every other ending says that there may be better ones.
+pub fn stands(status: Status) -> bool {
+    matches!(status, Status::Converged | Status::AtBound)
+}
+
+/// The committed result, or why it does not stand for the spec any more. `refit` is what the spec
+/// gives today, where that is known: with it a change of the data or of the form is noticed too.
+pub(super) fn committed(
+    root: &Path,
+    spec: &Spec,
+    refit: Option<&FitResult>,
+) -> Result<Result<FitResult, String>, FitError> {
+    let path = root.join(file(spec));
+    let mend = format!("run `striae fit {}`", spec.name);
+    if !path.is_file() {
+        return Ok(Err(format!("there is no result: {mend}")));
+    }
+    let committed = FitResult::read(&path)?;
+    let was = provenance(&committed);
+    if was.is_none_or(|was| was.spec_sha256 != sha256_hex(spec.text.as_bytes())) {
+        return Ok(Err(format!("the result is stale, its spec has changed: {mend}")));
+    }
+    if let (Some(was), Some(is)) = (was, refit.and_then(provenance))
+        && was.data_sha256 != is.data_sha256
+    {
+        return Ok(Err(format!("the result is stale, its form or data have changed: {mend}")));
+    }
+    Ok(Ok(committed))
+}
+
+fn provenance(result: &FitResult) -> Option<&FitProvenance> {
+    match result {
+        FitResult::Single(outcome) => Some(&outcome.provenance),
+        FitResult::Family(family) => Some(&family.provenance),
+    }
 }

@@ -36,33 +36,36 @@ impl Evidence<'_> {
     /// [`GateError`] if there is no such scene or approximation, or the scene is unusable.
     pub(super) fn scene(&self, gate: &Gate) -> Result<Pictured, GateError> {
         let (name, approximation) = gate.scene().unwrap_or_default();
-        let path = self.project().scene_folder().join(format!("{name}.toml"));
+        let path = self.of.project.scene_folder().join(format!("{name}.toml"));
         if name.contains("..") || !path.is_file() {
             return Err(gate.fault(format!("there is no scene data/scenes/{name}.toml")));
         }
-        let scene = self.scenes().prepared(&path, self.project())?;
+        let scene = self.of.scenes.prepared(&path, self.of.project)?;
         let names: Vec<&str> =
             scene.scene.approximations.iter().map(|of| of.name.as_str()).collect();
-        let at = names.iter().position(|name| *name == approximation).ok_or_else(|| {
-            GateError::UnknownMember {
-                gate: gate.index,
-                line: gate.line,
-                subject: gate.subject.clone(),
-                known: names.join(", "),
-            }
-        })?;
+        let at = names.iter().position(|name| *name == approximation);
+        let at = at.ok_or_else(|| gate.no_member(&names.join(", ")))?;
         Ok(Pictured { at, scene })
     }
 }
 
 impl Pictured {
-    /// Measures the picture; on lanes without a device.
+    /// Measures the picture, with a constant moved wherever it is if one is `moved`; on lanes without
+    /// a device.
     pub(super) fn reached(
         &self,
         gate: &Gate,
+        moved: Option<Moved<'_>>,
         device: Option<&Device>,
     ) -> Result<Reached, RenderError> {
-        let picture = self.scene.picture(self.at, backend(gate, device), &mut |_| ())?;
+        let backend = match (gate.precision, device) {
+            (Precision::Device, Some(device)) => Backend::Device(device),
+            _ => Backend::Lanes,
+        };
+        let picture = match moved {
+            None => self.scene.picture(self.at, backend, &mut |_| ())?,
+            Some(moved) => Arc::new(self.scene.moved(self.at, moved, backend)?),
+        };
         Ok(self.figure(gate.metric, &picture.metrics))
     }
 
@@ -70,19 +73,6 @@ impl Pictured {
     pub(super) fn constants(&self) -> Vec<String> {
         let constants = self.scene.constants(self.at);
         if constants.is_empty() { vec![OUTPUT.to_owned()] } else { constants }
-    }
-
-    /// Measures the picture with `constant` moved by the relative step wherever it is.
-    pub(super) fn perturbed(
-        &self,
-        gate: &Gate,
-        constant: &str,
-        step: f64,
-        device: Option<&Device>,
-    ) -> Result<Reached, RenderError> {
-        let moved = Moved { constant, step };
-        let picture = self.scene.moved(self.at, moved, backend(gate, device))?;
-        Ok(self.figure(gate.metric, &picture.metrics))
     }
 
     /// The metric's value and its place; not a number for a metric that pictures do not have, which
@@ -102,12 +92,5 @@ impl Pictured {
             }
         };
         Reached { value, at, of: None, count: self.scene.values() }
-    }
-}
-
-fn backend<'d>(gate: &Gate, device: Option<&'d Device>) -> Backend<'d> {
-    match (gate.precision, device) {
-        (Precision::Device, Some(device)) => Backend::Device(device),
-        _ => Backend::Lanes,
     }
 }

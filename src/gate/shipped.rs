@@ -2,36 +2,14 @@
 
 use std::collections::BTreeMap;
 
-/// Why a shipped constant cannot be compared.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum ShippedError {
-    /// The file gives it no value.
-    #[error("{file}: no `{name} = <number>`; the constants there: {known}")]
-    Missing {
-        /// The file.
-        file: String,
-        /// The constant.
-        name: String,
-        /// Names that have a value.
-        known: String,
-    },
-    /// The file gives it several values.
-    #[error("{file}: `{name}` has several values: {first} and {second}")]
-    Ambiguous {
-        /// The file.
-        file: String,
-        /// The constant.
-        name: String,
-        /// First value.
-        first: String,
-        /// Another one.
-        second: String,
-    },
-}
+use super::Reached;
+use super::evidence::Found;
+use crate::effect::Candidate;
+use crate::numeric::ulp::ulp_distance_f32;
 
 /// The constants of one file: name to every f32 that it is initialised with.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct ShippedConstants {
+pub(super) struct ShippedConstants {
     file: String,
     values: BTreeMap<String, Vec<f32>>,
 }
@@ -40,7 +18,7 @@ impl ShippedConstants {
     /// Reads `override a: f32 = 0.5;`, `const a = -0.5f;`, `const float a = 0.5;`,
     /// `static const float a = 0.5f;` and `#define a 0.5`, comments left out. A name initialised
     /// with anything but a decimal number is not seen, and is then reported as missing.
-    pub fn read(file: &str, text: &str) -> Self {
+    pub(super) fn read(file: &str, text: &str) -> Self {
         let mut values: BTreeMap<String, Vec<f32>> = BTreeMap::new();
         for line in without_comments(text).split([';', '\n', '{', '}', ',']) {
             if let Some((name, value)) = define(line).or_else(|| initialised(line)) {
@@ -50,23 +28,36 @@ impl ShippedConstants {
         Self { file: file.to_owned(), values }
     }
 
-    /// The one value of `name`.
-    ///
-    /// # Errors
-    /// [`ShippedError`] if there is none, or several that differ.
-    pub fn value(&self, name: &str) -> Result<f32, ShippedError> {
-        let (file, name) = (self.file.clone(), name.to_owned());
-        let Some((first, others)) = self.values.get(&name).and_then(|all| all.split_first()) else {
+    /// The one value of `name`; or that there is none, or that there are several that differ.
+    fn value(&self, name: &str) -> Found<f32> {
+        let file = &self.file;
+        let Some((first, others)) = self.values.get(name).and_then(|all| all.split_first()) else {
             let known: Vec<&str> = self.values.keys().map(String::as_str).collect();
-            return Err(ShippedError::Missing { file, name, known: known.join(", ") });
+            let known = known.join(", ");
+            return Err(format!("{file}: no `{name} = <number>`; the constants there: {known}"));
         };
         match others.iter().find(|other| other.to_bits() != first.to_bits()) {
             None => Ok(*first),
-            Some(other) => {
-                let (first, second) = (first.to_string(), other.to_string());
-                Err(ShippedError::Ambiguous { file, name, first, second })
+            Some(other) => Err(format!("{file}: `{name}` has several values: {first} and {other}")),
+        }
+    }
+
+    /// The largest distance over all constants of `candidate`, in ulp of f32; or why it cannot be
+    /// told.
+    pub(super) fn drift(&self, candidate: &Candidate) -> Found<Reached> {
+        let mut farthest = Reached { value: 0.0, at: BTreeMap::new(), of: None, count: 0 };
+        for (parameter, fitted) in candidate.form.parameters().iter().zip(&candidate.constants_f32)
+        {
+            let name = &parameter.name;
+            let there = self.value(name)?;
+            let distance = f64::from(ulp_distance_f32(there, *fitted));
+            farthest.count += 1;
+            if farthest.of.is_none() || distance > farthest.value {
+                farthest.value = distance;
+                farthest.of = Some(format!("{name} = {there} there, {fitted} fitted"));
             }
         }
+        if farthest.count == 0 { Err("the fit has no constants".to_owned()) } else { Ok(farthest) }
     }
 }
 
@@ -106,13 +97,10 @@ fn define(line: &str) -> Option<(String, f32)> {
 fn initialised(line: &str) -> Option<(String, f32)> {
     let (declared, value) = line.split_once('=')?;
     let declared = declared.split(':').next()?.trim();
-    let start = declared.rfind(|c: char| !is_name(c)).map_or(0, |at| at + 1);
+    let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let start = declared.rfind(|c| !is_name(c)).map_or(0, |at| at + 1);
     let name = declared.get(start..).filter(|name| !name.is_empty())?;
     Some((name.to_owned(), number(value)?))
-}
-
-fn is_name(c: char) -> bool {
-    c.is_ascii_alphanumeric() || c == '_'
 }
 
 /// A decimal literal with an optional sign and suffix.
@@ -138,13 +126,14 @@ mod tests {
         {
             assert_eq!(shipped.value(name), Ok(value), "{name}");
         }
-        assert!(matches!(shipped.value("h"), Err(ShippedError::Missing { .. })));
+        let missing = shipped.value("h").expect_err("it is no number");
+        assert!(missing.starts_with("s: no `h = <number>`"), "{missing}");
     }
 
     #[test]
     fn a_constant_with_two_values_is_refused() {
         let shipped = ShippedConstants::read("s", "const a = 1.0;\nconst a = 2.0;");
-        assert!(matches!(shipped.value("a"), Err(ShippedError::Ambiguous { .. })));
+        assert_eq!(shipped.value("a"), Err("s: `a` has several values: 1 and 2".to_owned()));
     }
 
     #[test]

@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use super::{Metric, Precision, Reached};
+use super::evidence::Found;
+use super::{Gate, Metric, Precision, Reached, ShippedConstants};
 use crate::effect::Candidate;
 use crate::fit::outcome::Residuals;
 use crate::gpu::Device;
@@ -18,6 +19,8 @@ use crate::validate::accuracy::{
 pub(super) struct Subject {
     /// One per fit.
     pub(super) instances: Vec<Instance>,
+    /// The file whose constants are compared with the fitted ones, for the metric `drift`.
+    pub(super) shipped: Option<ShippedConstants>,
 }
 
 /// One fitted form at the points where it is judged.
@@ -25,7 +28,6 @@ pub(super) struct Subject {
 pub(super) struct Instance {
     /// Label of a member of a family.
     pub(super) label: Option<String>,
-    /// Form and constants.
     pub(super) candidate: Candidate,
     /// Points and true values.
     pub(super) target: GroundTruth,
@@ -38,7 +40,6 @@ pub(super) struct Instance {
 pub(super) enum Lever {
     /// A constant, with those that are tied to it: places in the order of the form.
     Constant {
-        /// Its name.
         name: String,
         /// Places that move together.
         places: Vec<usize>,
@@ -57,65 +58,77 @@ impl Lever {
     }
 }
 
+impl Subject {
+    /// What the gate measures of one fit, with a lever moved by a relative step if one is `moved`; or
+    /// why a gate on it fails.
+    pub(super) fn reached(
+        &self,
+        instance: &Instance,
+        gate: &Gate,
+        moved: Option<(&Lever, f64)>,
+        device: Option<&Device>,
+    ) -> Result<Found<Reached>, ValidateError> {
+        let (candidate, target) = instance.perturbed(moved);
+        match &self.shipped {
+            Some(shipped) => Ok(shipped.drift(&candidate)),
+            None => instance.errors(gate, &candidate, &target, device).map(Ok),
+        }
+    }
+}
+
 impl Instance {
     /// The same with the lever moved by the relative step; by the step itself from 0.
-    pub(super) fn perturbed(
+    fn perturbed(
         &self,
-        lever: &Lever,
-        step: f64,
+        moved: Option<(&Lever, f64)>,
     ) -> (Cow<'_, Candidate>, Cow<'_, GroundTruth>) {
         let (mut candidate, mut target) =
             (Cow::Borrowed(&self.candidate), Cow::Borrowed(&self.target));
-        match lever {
-            Lever::Constant { places, .. } => {
-                let candidate = candidate.to_mut();
+        match moved {
+            Some((Lever::Constant { places, .. }, step)) => {
+                let to = |value: f64| if value == 0.0 { step } else { value * (1.0 + step) };
+                let Candidate { constants, constants_f32, .. } = candidate.to_mut();
                 for place in places {
-                    if let Some(value) = candidate.constants.get_mut(*place) {
-                        *value = moved(*value, step);
-                    }
-                    if let Some(value) = candidate.constants_f32.get_mut(*place) {
-                        *value = moved(f64::from(*value), step) as f32;
-                    }
+                    constants[*place] = to(constants[*place]);
+                    constants_f32[*place] = to(f64::from(constants_f32[*place])) as f32;
                 }
             }
             // Values times 1 + step against the target leave the same residuals, up to that
             // factor, as values against the target over 1 + step.
-            Lever::Output => target.to_mut().values.iter_mut().for_each(|v| *v /= 1.0 + step),
+            Some((Lever::Output, step)) => {
+                target.to_mut().values.iter_mut().for_each(|v| *v /= 1.0 + step);
+            }
+            None => {}
         }
         (candidate, target)
     }
-}
 
-fn moved(value: f64, step: f64) -> f64 {
-    if value == 0.0 { step } else { value * (1.0 + step) }
-}
-
-/// Measures an instance, perturbed or not.
-pub(super) fn reached(
-    label: Option<&str>,
-    candidate: &Candidate,
-    target: &GroundTruth,
-    metric: Metric,
-    precision: Precision,
-    device: Option<&Device>,
-) -> Result<Reached, ValidateError> {
-    if metric == Metric::RelL2 {
-        let arithmetic = match (precision, device) {
+    /// Errors of the candidate against the target, which may both be perturbed.
+    fn errors(
+        &self,
+        gate: &Gate,
+        candidate: &Candidate,
+        target: &GroundTruth,
+        device: Option<&Device>,
+    ) -> Result<Reached, ValidateError> {
+        let arithmetic = match (gate.precision, device) {
             (Precision::F64, _) => Arithmetic::F64,
             (Precision::Device, Some(device)) => Arithmetic::Device(device),
             (Precision::F32, _) | (Precision::Device, None) => Arithmetic::F32,
         };
-        let RelativeL2 { value, at } = relative_l2(candidate, target, arithmetic)?;
-        let (of, count) = (label.map(str::to_owned), target.values.len());
-        return Ok(Reached { value, at, of, count });
+        let of = self.label.clone();
+        if gate.metric == Metric::RelL2 {
+            let RelativeL2 { value, at } = relative_l2(candidate, target, arithmetic)?;
+            return Ok(Reached { value, at, of, count: target.values.len() });
+        }
+        let residuals = match arithmetic {
+            Arithmetic::F64 => residuals_f64(candidate, target)?,
+            Arithmetic::F32 => residuals_f32(candidate, target)?,
+            Arithmetic::Device(device) => residuals_device(candidate, target, device)?,
+        };
+        let (value, at) = figure(gate.metric, &residuals);
+        Ok(Reached { value, at, of, count: residuals.count })
     }
-    let residuals = match (precision, device) {
-        (Precision::F64, _) => residuals_f64(candidate, target)?,
-        (Precision::Device, Some(device)) => residuals_device(candidate, target, device)?,
-        (Precision::F32, _) | (Precision::Device, None) => residuals_f32(candidate, target)?,
-    };
-    let (value, at) = figure(metric, &residuals);
-    Ok(Reached { value, at, of: label.map(str::to_owned), count: residuals.count })
 }
 
 /// The metric's value and where it is; not a number as soon as any residual is none, or there is
@@ -139,12 +152,4 @@ fn figure(metric: Metric, residuals: &Residuals) -> (f64, BTreeMap<String, f64>)
         // Neither comes here, and either would fail if it did.
         Metric::RelL2 | Metric::Flip | Metric::Drift => (f64::NAN, nowhere),
     }
-}
-
-/// The worst of several; a value that is not a number is worse than any.
-pub(super) fn worst(all: impl IntoIterator<Item = Reached>) -> Option<Reached> {
-    all.into_iter().reduce(|worst, other| {
-        let worse = !worst.value.is_nan() && (other.value.is_nan() || other.value > worst.value);
-        if worse { other } else { worst }
-    })
 }

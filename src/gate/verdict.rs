@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::{Gate, Precision};
-use crate::document::{Verdict, number};
+use crate::document::{Verdict, number, place};
 
 /// A number of a fit, and where it was reached.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -23,13 +23,8 @@ pub struct Reached {
 impl Reached {
     /// `x = 3.56, Au.Johnson@R`: where the value was reached; empty if it has no place.
     pub fn place(&self) -> String {
-        let mut parts: Vec<String> = self
-            .at
-            .iter()
-            .map(|(name, value)| format!("{name} = {}", number(*value, DIGITS)))
-            .collect();
-        parts.extend(self.of.clone());
-        parts.join(", ")
+        let at = Some(place(&self.at, DIGITS)).filter(|at| !at.is_empty());
+        at.into_iter().chain(self.of.clone()).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -37,14 +32,17 @@ impl Reached {
 const DIGITS: usize = 6;
 
 /// A gate with its verdict.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Judgement {
     /// The gate.
+    #[serde(flatten)]
     pub gate: Gate,
     /// Its verdict.
     pub verdict: Verdict,
     /// What was measured, if anything.
     pub measured: Option<Reached>,
+    /// Part of the limit that is left, 1; negative beyond it.
+    pub margin: Option<f64>,
     /// Why it failed, or was not measured, where the number does not say it.
     pub reason: Option<String>,
 }
@@ -64,22 +62,19 @@ impl Judgement {
         } else {
             (Verdict::Pass, None)
         };
-        Self { gate, verdict, measured: Some(measured), reason }
+        let margin = Some(1.0 - value / gate.limit);
+        Self { gate, verdict, measured: Some(measured), margin, reason }
     }
 
     /// A gate that fails without a number.
     pub fn failed(gate: Gate, reason: impl Into<String>) -> Self {
-        Self { gate, verdict: Verdict::Fail, measured: None, reason: Some(reason.into()) }
+        let reason = Some(reason.into());
+        Self { gate, verdict: Verdict::Fail, measured: None, margin: None, reason }
     }
 
     /// A gate that cannot be measured here.
     pub fn not_measured(gate: Gate, reason: impl Into<String>) -> Self {
-        Self { gate, verdict: Verdict::NotMeasured, measured: None, reason: Some(reason.into()) }
-    }
-
-    /// Part of the limit that is left, 1; negative beyond it.
-    pub fn margin(&self) -> Option<f64> {
-        self.measured.as_ref().map(|measured| 1.0 - measured.value / self.gate.limit)
+        Self { verdict: Verdict::NotMeasured, ..Self::failed(gate, reason) }
     }
 
     /// One line: `max_abs 0.05098 of 0.05105 (0.1 % left) at x = 3.56`.
@@ -88,7 +83,7 @@ impl Judgement {
         let mut line = match &self.measured {
             None => format!("{metric} not measured"),
             Some(measured) => {
-                let margin = 100.0 * self.margin().unwrap_or(f64::NAN);
+                let margin = 100.0 * self.margin.unwrap_or(f64::NAN);
                 let place = measured.place();
                 let at = if place.is_empty() { String::new() } else { format!(" at {place}") };
                 let (value, limit) = (number(measured.value, DIGITS), self.gate.limit);
@@ -117,26 +112,4 @@ fn stale(gate: &Gate, value: f64) -> Option<String> {
     };
     let near = (value - recorded).abs() <= tolerance * recorded.abs().max(value.abs());
     (!near).then(|| format!("measured = {recorded} is stale: {} now", number(value, 4)))
-}
-
-impl Serialize for Judgement {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeStruct;
-        let mut out = serializer.serialize_struct("Judgement", 13)?;
-        let gate = &self.gate;
-        out.serialize_field("subject", &gate.subject)?;
-        out.serialize_field("metric", &gate.metric)?;
-        out.serialize_field("precision", &gate.precision)?;
-        out.serialize_field("domain", &gate.domain.as_ref().map(ToString::to_string))?;
-        out.serialize_field("limit", &gate.limit)?;
-        out.serialize_field("recorded", &gate.measured)?;
-        out.serialize_field("warn", &gate.warn)?;
-        out.serialize_field("why", &gate.why)?;
-        out.serialize_field("line", &gate.line)?;
-        out.serialize_field("verdict", &self.verdict)?;
-        out.serialize_field("measured", &self.measured)?;
-        out.serialize_field("margin", &self.margin().filter(|margin| margin.is_finite()))?;
-        out.serialize_field("reason", &self.reason)?;
-        out.end()
-    }
 }

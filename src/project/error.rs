@@ -19,14 +19,6 @@ pub enum ProjectError {
         /// Where the search began.
         from: PathBuf,
     },
-    /// The folder that was named is none.
-    #[error("{folder}: named by {by} as the project, but it has no folder `fits/`")]
-    NotOne {
-        /// The folder.
-        folder: PathBuf,
-        /// Option or variable.
-        by: &'static str,
-    },
     /// A form of the folder `forms/` cannot be registered.
     #[error(transparent)]
     Forms(#[from] RegistryError),
@@ -44,17 +36,11 @@ pub enum ProjectError {
         /// The fit.
         fit: String,
     },
-    /// There is no spec of a name.
-    #[error("there is no spec `{name}`{}", nearest_words(.nearest))]
-    NoSpec {
-        /// The name.
-        name: String,
-        /// The nearest that there are.
-        nearest: Vec<String>,
-    },
     /// A name stands for nothing.
-    #[error("there is no reference, fit or form `{name}`{}", nearest_words(.nearest))]
+    #[error("there is no {what} `{name}`{}", nearest_words(.nearest))]
     Unknown {
+        /// What was looked for.
+        what: &'static str,
         /// The name.
         name: String,
         /// The nearest that there are.
@@ -63,7 +49,7 @@ pub enum ProjectError {
     /// A name stands for something else than was asked for, or for nothing in particular.
     #[error("{name}: {what}")]
     Name {
-        /// The name, or the file that it stands for.
+        /// The name, or the file or folder that it stands for.
         name: String,
         /// What is wrong with it.
         what: String,

@@ -41,10 +41,7 @@ impl Fingerprints {
         hash.update(&self.base);
         let sources = spec.constants.iter().map(|name| project.fits().join(format!("{name}.json")));
         for path in [file.path.clone(), file.result()].into_iter().chain(sources) {
-            match std::fs::read(path) {
-                Ok(bytes) => add(&mut hash, &bytes),
-                Err(_) => hash.update(b"absent"),
-            }
+            add_if_there(&mut hash, &path);
         }
         hex(hash)
     }
@@ -72,10 +69,7 @@ impl Fingerprints {
         if project.scene_folder().is_dir() {
             add_folder(&mut hash, &project.scene_folder())?;
         }
-        match std::fs::read(project.accuracy()) {
-            Ok(bytes) => add(&mut hash, &bytes),
-            Err(_) => hash.update(b"absent"),
-        }
+        add_if_there(&mut hash, &project.accuracy());
         if project.report().is_dir() {
             add_folder(&mut hash, &project.report())?;
         }
@@ -104,6 +98,13 @@ fn add_file(hash: &mut Sha256, path: &Path) -> Result<(), ProjectError> {
     let bytes = std::fs::read(path).map_err(ProjectError::io(path))?;
     add(hash, &bytes);
     Ok(())
+}
+
+fn add_if_there(hash: &mut Sha256, path: &Path) {
+    match std::fs::read(path) {
+        Ok(bytes) => add(hash, &bytes),
+        Err(_) => hash.update(b"absent"),
+    }
 }
 
 /// Length first, so that two parts cannot pass for one.

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 
 pub use error::ProjectError;
 pub use fingerprint::Fingerprints;
-pub use names::{Named, nearest};
+pub use names::nearest;
 pub use specs::SpecFile;
 pub(crate) use specs::entries;
 pub use subject::{Approximated, Fitted, Subject};
@@ -60,11 +60,14 @@ impl Project {
     /// [`Project::open`].
     ///
     /// # Errors
-    /// [`ProjectError::NotFound`], [`ProjectError::NotOne`] and [`ProjectError::Forms`].
+    /// [`ProjectError::NotFound`], [`ProjectError::Name`] and [`ProjectError::Forms`].
     pub fn find(named: Option<&Path>, registry: &Registry) -> Result<Self, ProjectError> {
-        let checked = |folder: &Path, by: &'static str| match folder.join("fits").is_dir() {
+        let checked = |folder: &Path, by: &str| match folder.join("fits").is_dir() {
             true => Self::open(folder, registry),
-            false => Err(ProjectError::NotOne { folder: folder.to_path_buf(), by }),
+            false => {
+                let what = format!("named by {by} as the project, but it has no folder `fits/`");
+                Err(ProjectError::Name { name: folder.display().to_string(), what })
+            }
         };
         if let Some(folder) = named {
             return checked(folder, "--project");

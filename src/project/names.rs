@@ -2,35 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
 
 use super::{Project, ProjectError};
-use crate::effect::{Candidate, Candidates, ConstantsOf, FormEntry, Reference};
+use crate::effect::{Candidate, ConstantsOf, FormEntry};
 use crate::fit::FitResult;
 use crate::fit::outcome::Outcome;
 use crate::form::Form;
 
-/// What a name stands for.
-#[derive(Debug)]
-pub enum Named {
-    /// An exact quantity.
-    Reference(&'static Reference),
-    /// A form with its constants.
-    Candidate(Box<Candidate>),
-}
-
 impl Project {
-    /// What `name` stands for: a reference, or a candidate by any of its names ([`Self::candidate`]).
-    ///
-    /// # Errors
-    /// As [`Self::candidate`].
-    pub fn named(&self, name: &str) -> Result<Named, ProjectError> {
-        match self.registry().reference(name) {
-            Some((_, reference)) => Ok(Named::Reference(reference)),
-            None => Ok(Named::Candidate(Box::new(self.candidate(name)?))),
-        }
-    }
-
     /// The candidate called `name`:
     ///
     /// | name | form and constants |
@@ -69,7 +48,9 @@ impl Project {
 
     /// Form, known constants and where they come from.
     fn parts(&self, name: &str) -> Result<(Form, Constants, ConstantsOf), ProjectError> {
-        if let Some((file, function)) = split_wgsl(name) {
+        if let Some((file, function)) = name.split_once('#')
+            && file.ends_with(".wgsl")
+        {
             let form = self.form_of_file(Path::new(file), function)?;
             return Ok((form, Constants::new(), ConstantsOf::Text));
         }
@@ -127,38 +108,17 @@ impl Project {
         })
     }
 
-    /// The form and the constants of a result.
-    ///
-    /// # Errors
-    /// If the form is neither registered nor a readable file, or a constant of it has no value.
-    pub fn fitted(&self, outcome: &Outcome) -> Result<Candidate, ProjectError> {
-        self.with_form(outcome, self.form_of(outcome)?)
-    }
-
-    fn form_of(&self, outcome: &Outcome) -> Result<Form, ProjectError> {
+    pub(super) fn form_of(&self, outcome: &Outcome) -> Result<Form, ProjectError> {
         match self.registry().form(&outcome.form) {
             Some(entry) => Ok(entry.load()?),
             None => self.form_of_file(Path::new(&outcome.form), &outcome.function),
         }
     }
 
-    /// As [`Self::fitted`], of a form that is loaded already.
-    pub(super) fn with_form(
-        &self,
-        outcome: &Outcome,
-        form: Form,
-    ) -> Result<Candidate, ProjectError> {
+    /// `form` with the constants of a result.
+    pub(super) fn with_form(outcome: &Outcome, form: Form) -> Result<Candidate, ProjectError> {
         let constants_of = ConstantsOf::Fit(outcome.name.clone());
         Ok(Candidate::new(&outcome.name, form, &constants(outcome), constants_of)?)
-    }
-
-    /// Every candidate that is judged, by name.
-    ///
-    /// # Errors
-    /// As [`Self::subjects`].
-    pub fn candidates(&self) -> Result<Candidates, ProjectError> {
-        let subjects = self.subjects()?;
-        Ok(subjects.into_iter().flat_map(|subject| subject.candidates).map(Arc::new).collect())
     }
 
     fn form_of_file(&self, path: &Path, function: &str) -> Result<Form, ProjectError> {
@@ -199,17 +159,17 @@ impl Project {
     }
 
     /// That nothing is called `name`, with the nearest names; or that its fit was not run yet.
-    pub fn unknown(&self, name: &str) -> ProjectError {
-        let specs: Vec<String> =
-            self.specs().unwrap_or_default().into_iter().map(|spec| spec.name).collect();
+    fn unknown(&self, name: &str) -> ProjectError {
+        let specs = self.specs().unwrap_or_default().into_iter().map(|spec| spec.name);
+        let specs: Vec<String> = specs.collect();
         if specs.iter().any(|spec| spec == name) {
             return ProjectError::NoResult { fit: name.to_owned() };
         }
-        let mut known: Vec<String> =
-            self.registry().references().map(|r| r.name.to_owned()).collect();
-        known.extend(self.registry().forms().map(|form| form.name.to_owned()));
-        known.extend(specs);
+        let references = self.registry().references().map(|reference| reference.name.to_owned());
+        let forms = self.registry().forms().map(|form| form.name.to_owned());
+        let known = references.chain(forms).chain(specs);
         ProjectError::Unknown {
+            what: "reference, fit or form",
             name: name.to_owned(),
             nearest: nearest(name.trim_start_matches("form:"), known),
         }
@@ -222,11 +182,6 @@ type Constants = BTreeMap<String, (f64, f32)>;
 fn constants(outcome: &Outcome) -> Constants {
     let constants = outcome.parameters.iter();
     constants.map(|(name, found)| (name.clone(), (found.value, found.f32))).collect()
-}
-
-/// `FILE.wgsl` and `function` of `FILE.wgsl#function`.
-fn split_wgsl(name: &str) -> Option<(&str, &str)> {
-    name.split_once('#').filter(|(file, _)| file.ends_with(".wgsl"))
 }
 
 /// The three of `known` that are nearest to `name` by Levenshtein's distance.

@@ -46,7 +46,7 @@ impl Project {
         let all = self.specs()?;
         if let Some(name) = names.iter().find(|name| !all.iter().any(|spec| spec.name == **name)) {
             let nearest = super::nearest(name, all.into_iter().map(|spec| spec.name));
-            return Err(ProjectError::NoSpec { name: name.clone(), nearest });
+            return Err(ProjectError::Unknown { what: "spec", name: name.clone(), nearest });
         }
         Ok(all.into_iter().filter(|spec| names.is_empty() || names.contains(&spec.name)).collect())
     }
@@ -74,16 +74,15 @@ impl SpecFile {
         let Ok(text) = std::fs::read_to_string(self.result()) else {
             return "not fitted".to_owned();
         };
-        let status = |outcome: &Value| outcome["status"].as_str().map(str::to_owned);
-        match serde_json::from_str::<Value>(&text) {
-            Ok(result) => match result["members"].as_array() {
-                Some(members) => {
-                    let good = members.iter().filter(|m| m["status"] == "converged").count();
-                    format!("{good} of {} converged", members.len())
-                }
-                None => status(&result).unwrap_or_else(|| "no status".to_owned()),
-            },
-            Err(_) => "unreadable".to_owned(),
+        let Ok(result) = serde_json::from_str::<Value>(&text) else {
+            return "unreadable".to_owned();
+        };
+        match result["members"].as_array() {
+            Some(members) => {
+                let good = members.iter().filter(|m| m["status"] == "converged").count();
+                format!("{good} of {} converged", members.len())
+            }
+            None => result["status"].as_str().unwrap_or("no status").to_owned(),
         }
     }
 

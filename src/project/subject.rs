@@ -112,11 +112,11 @@ impl Project {
         };
         let mut candidates: Vec<Candidate> = Vec::new();
         for outcome in result.outcomes() {
-            let candidate = match candidates.first() {
-                Some(first) => self.with_form(outcome, first.form.clone())?,
-                None => self.fitted(outcome)?,
+            let form = match candidates.first() {
+                Some(first) => first.form.clone(),
+                None => self.form_of(outcome)?,
             };
-            candidates.push(candidate);
+            candidates.push(Self::with_form(outcome, form)?);
         }
         let form = match &spec.form {
             FormChoice::Registered(name) => name.clone(),

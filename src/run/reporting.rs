@@ -88,7 +88,6 @@ impl Run {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             adapter: self.device.value().map(|device| device.description().to_string()),
             command: "striae report".to_owned(),
-            facts: Vec::new(),
         };
         Ok(write_site(folder, &pages, &colophon)?)
     }

@@ -3,8 +3,7 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::tables::{table, unfolded};
-use crate::document::plot::PlotError;
-use crate::document::{Block, Figure, Inline, NoticeLevel, Picture, Span};
+use crate::document::{Block, Figure, Inline, Picture, Span};
 use crate::report::plot::{Drawing, draw};
 
 /// Text with its markup.
@@ -32,36 +31,32 @@ pub(super) fn safe(href: &str) -> &str {
 }
 
 /// A block; the drawings of its figures are added to `drawings`.
-pub(super) fn block(
-    block: &Block,
-    drawings: &mut Vec<(String, Drawing)>,
-) -> Result<Markup, PlotError> {
-    Ok(match block {
+pub(super) fn block(block: &Block, drawings: &mut Vec<(String, Drawing)>) -> Markup {
+    match block {
         Block::Paragraph(text) => html! { p { (inline(text)) } },
         Block::List(items) => html! { ul { @for item in items { li { (inline(item)) } } } },
         Block::Table(one) => table(one),
-        Block::Figure(one) => figure(one, drawings)?,
+        Block::Figure(one) => figure(one, drawings),
         Block::Picture(one) => picture(one),
-        Block::Code { lang, text } => html! { pre data-lang=(lang) { code { (text) } } },
         Block::Notice { level, text } => html! {
-            p class={ "notice " (level_class(*level)) } role="note" {
+            p class={ "notice " (level.word().replace(' ', "-")) } role="note" {
                 strong { (level.word()) } " " (inline(text))
             }
         },
         Block::Details { summary, blocks } => {
+            // What was asked for is not folded again.
             let inner = blocks.iter().map(|inner| match inner {
-                // What was asked for is not folded again.
-                Block::Table(table) => Ok(unfolded(table, true)),
+                Block::Table(table) => unfolded(table, true),
                 other => self::block(other, drawings),
             });
-            let inner = inner.collect::<Result<Vec<_>, _>>()?;
+            let inner: Vec<Markup> = inner.collect();
             html! { details { summary { (inline(summary)) } @for one in &inner { (one) } } }
         }
-    })
+    }
 }
 
-fn figure(figure: &Figure, drawings: &mut Vec<(String, Drawing)>) -> Result<Markup, PlotError> {
-    let drawing = draw(figure)?;
+fn figure(figure: &Figure, drawings: &mut Vec<(String, Drawing)>) -> Markup {
+    let drawing = draw(figure);
     let markup = html! {
         figure id=(figure.file_stem) {
             div.scroll tabindex="0" role="region" aria-label={ "figure " (figure.file_stem) } {
@@ -75,7 +70,7 @@ fn figure(figure: &Figure, drawings: &mut Vec<(String, Drawing)>) -> Result<Mark
         }
     };
     drawings.push((figure.file_stem.clone(), drawing));
-    Ok(markup)
+    markup
 }
 
 fn picture(picture: &Picture) -> Markup {
@@ -87,15 +82,6 @@ fn picture(picture: &Picture) -> Markup {
             }
             figcaption { (inline(&picture.caption)) " " a.file href=(file) { "PNG" } }
         }
-    }
-}
-
-fn level_class(level: NoticeLevel) -> &'static str {
-    match level {
-        NoticeLevel::Info => "info",
-        NoticeLevel::Warning => "warning",
-        NoticeLevel::Failure => "failure",
-        NoticeLevel::NotMeasured => "not-measured",
     }
 }
 

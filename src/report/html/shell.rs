@@ -3,9 +3,8 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::blocks::{block, inline};
-use crate::document::plot::PlotError;
 use crate::document::{Colophon, Page};
-use crate::report::plot::{DARK_RULES, Drawing};
+use crate::report::plot::{Drawing, dark_rules};
 
 /// The style sheet of every page.
 const STYLE: &str = include_str!("page.css");
@@ -21,24 +20,16 @@ pub struct Rendered {
 
 /// Writes one page. `pages` are all pages of the report, for the links between them; the page with
 /// the slug `index` lists the others with their summaries.
-///
-/// # Errors
-/// [`PlotError`] if a figure cannot be drawn.
-pub fn render_page(
-    page: &Page,
-    pages: &[Page],
-    provenance: &Colophon,
-) -> Result<Rendered, PlotError> {
+pub fn render_page(page: &Page, pages: &[Page], provenance: &Colophon) -> Rendered {
     let mut drawings = Vec::new();
     let mut sections = Vec::new();
     for (index, section) in page.sections.iter().enumerate() {
-        let blocks = section
-            .blocks
-            .iter()
-            .map(|b| block(b, &mut drawings))
-            .collect::<Result<Vec<_>, _>>()?;
+        let blocks: Vec<Markup> = section.blocks.iter().map(|b| block(b, &mut drawings)).collect();
         sections.push((anchor(index, &section.title), section.title.as_str(), blocks));
     }
+    // On screens only: paper is white.
+    let dark = "@media screen and (prefers-color-scheme:dark)";
+    let dark_plots = format!("{dark}{{{}}}\n", dark_rules());
     let markup = html! {
         (DOCTYPE)
         html lang="en" {
@@ -48,7 +39,7 @@ pub fn render_page(
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content={ "striae " (provenance.version) };
                 title { (page.title) " · striae" }
-                style { (PreEscaped(STYLE)) (PreEscaped(dark_rules())) }
+                style { (PreEscaped(STYLE)) (PreEscaped(dark_plots)) }
             }
             body {
                 a.skip href="#content" { "Skip to the content" }
@@ -82,7 +73,7 @@ pub fn render_page(
             }
         }
     };
-    Ok(Rendered { html: markup.into_string() + "\n", drawings })
+    Rendered { html: markup.into_string() + "\n", drawings }
 }
 
 /// Links between the pages.
@@ -90,11 +81,8 @@ fn links(page: &Page, pages: &[Page]) -> Markup {
     html! {
         nav.pages aria-label="Pages" {
             @for other in pages {
-                @if other.slug == page.slug {
-                    a href={ (other.slug) ".html" } aria-current="page" { (other.title) }
-                } @else {
-                    a href={ (other.slug) ".html" } { (other.title) }
-                }
+                a href={ (other.slug) ".html" }
+                    aria-current=[(other.slug == page.slug).then_some("page")] { (other.title) }
             }
         }
     }
@@ -134,9 +122,4 @@ fn anchor(index: usize, title: &str) -> String {
         .map(str::to_ascii_lowercase)
         .collect();
     format!("s{}-{}", index + 1, words.join("-"))
-}
-
-/// Colours of plots on the dark ground, on screens only: paper is white.
-fn dark_rules() -> String {
-    format!("@media screen and (prefers-color-scheme:dark){{{DARK_RULES}}}\n")
 }

@@ -6,9 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::shell::render_page;
-use crate::document::plot::PlotError;
-use crate::document::{Colophon, Page};
-use crate::document::{json, text};
+use crate::document::{Colophon, Page, json, text};
 use crate::table::TableError;
 use crate::table::store::atomic_write;
 
@@ -34,13 +32,13 @@ pub enum SiteError {
         /// The name.
         name: String,
     },
-    /// A figure cannot be drawn.
-    #[error("page {page}: {source}")]
+    /// A figure holds no plot.
+    #[error("page {page}: figure {figure}: expected at least one plot, got none")]
     Plot {
         /// Slug of its page.
         page: String,
-        /// Why.
-        source: PlotError,
+        /// Its file stem.
+        figure: String,
     },
     /// The model cannot be written as JSON.
     #[error("report.json: {0}")]
@@ -96,35 +94,35 @@ pub fn write_site(dir: &Path, pages: &[Page], provenance: &Colophon) -> Result<W
     }
 
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
-    let mut listed = BTreeSet::new();
     for page in &pages {
-        let rendered = render_page(page, &pages, provenance)
-            .map_err(|source| SiteError::Plot { page: page.slug.clone(), source })?;
+        if let Some(empty) = page.figures().find(|figure| figure.plots.is_empty()) {
+            let (page, figure) = (page.slug.clone(), empty.file_stem.clone());
+            return Err(SiteError::Plot { page, figure });
+        }
+        let rendered = render_page(page, &pages, provenance);
         for (stem, drawing) in rendered.drawings {
             files.push((format!("figures/{stem}.svg"), drawing.standalone().into_bytes()));
-            listed.insert(format!("{stem}.svg"));
         }
         for picture in page.pictures() {
             files.push((format!("figures/{}.png", picture.file_stem), picture.png.clone()));
-            listed.insert(format!("{}.png", picture.file_stem));
         }
         files.push((format!("{}.html", page.slug), rendered.html.into_bytes()));
     }
     files.push(("report.json".to_owned(), json::report(&pages, provenance)?.into_bytes()));
     files.push(("report.txt".to_owned(), text::report(&pages, provenance).into_bytes()));
-    let manifest = Manifest { figures: listed };
+    let figures = files.iter().filter_map(|(name, _)| name.strip_prefix("figures/"));
+    let manifest = Manifest { figures: figures.map(str::to_owned).collect() };
     let manifest_text = serde_json::to_string_pretty(&manifest)? + "\n";
 
-    let mut written = Written::default();
+    let (mut written, mut removed) = (Vec::new(), Vec::new());
     let folder = dir.join("figures");
     std::fs::create_dir_all(&folder).map_err(|source| SiteError::Io { path: folder, source })?;
-    let mut removed = Vec::new();
     let mut put = |name: &str, content: &[u8]| -> Result<(), SiteError> {
         let path = dir.join(name);
         if !std::fs::read(&path).is_ok_and(|old| old == content) {
             atomic_write(&path, content)?;
         }
-        written.files.push(path);
+        written.push(path);
         Ok(())
     };
     for (name, content) in &files {
@@ -140,8 +138,7 @@ pub fn write_site(dir: &Path, pages: &[Page], provenance: &Colophon) -> Result<W
     }
     // Last, so that what an interrupted run leaves behind is still listed for the next.
     put(MANIFEST, manifest_text.as_bytes())?;
-    written.removed = removed;
-    Ok(written)
+    Ok(Written { files: written, removed })
 }
 
 fn usable(name: &str) -> bool {

@@ -103,9 +103,8 @@ fn classes(column: &PrintedColumn, cell: &Cell) -> String {
             _ => classes.push_str(" widest"),
         }
     }
-    if let Some(highlight) = cell.highlight {
-        classes.push(' ');
-        classes.push_str(highlight.word());
+    if cell.subject {
+        classes.push_str(" subject");
     }
     classes
 }
@@ -127,21 +126,12 @@ fn content(column: &PrintedColumn, cell: &Cell) -> Markup {
             span.missing { "not measured" span.reason { (reason) } }
         },
         Value::Verdict { verdict, label } => html! {
-            span class={ "badge " (verdict_class(*verdict)) } {
+            span class={ "badge " (verdict.word().replace(' ', "-")) } {
                 span.mark aria-hidden="true" { (mark(*verdict)) }
                 (verdict.shown(label.as_deref()))
             }
         },
         Value::Link { text, href } => html! { a href=(safe(href)) { (text) } },
-    }
-}
-
-fn verdict_class(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Pass => "pass",
-        Verdict::Warn => "warn",
-        Verdict::Fail => "fail",
-        Verdict::NotMeasured => "not-measured",
     }
 }
 

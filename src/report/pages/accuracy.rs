@@ -1,7 +1,7 @@
 //! Errors per region and precision, laws, and parity with the device.
 
-use super::{EffectEvidence, bare, device_notice, on_device, place};
-use crate::document::{Block, Cell, NoticeLevel, PrintedColumn, PrintedTable, Section, Verdict};
+use super::{EffectEvidence, bare, device_notice, on_device};
+use crate::document::{Cell, NoticeLevel, PrintedColumn, PrintedTable, Section, Verdict, place};
 use crate::effect::Yardstick;
 use crate::numeric::measured::Measured;
 use crate::validate::accuracy::Accuracy;
@@ -16,25 +16,21 @@ pub(super) fn section(evidence: &EffectEvidence<'_>) -> Section {
          elementary functions; the device evaluates the same text.",
     );
     let section = device_notice(section, &evidence.costs.adapter);
-    let with = |section: Section, caption: String, of: &dyn Fn(&CandidateStudy) -> Found<'_>| {
-        let judged = |fit| Some((fit, of(fit)?));
-        let rows: Vec<_> = evidence.study.candidates.iter().filter_map(judged).collect();
-        if rows.is_empty() { section } else { section.block(table(caption, &rows)) }
+    type Judged = Vec<(String, Accuracy)>;
+    let rows = |judged: fn(&CandidateStudy) -> &Judged, name: &str| {
+        let of = |fit| Some((fit, &judged(fit).iter().find(|(of, _)| of == name)?.1));
+        evidence.study.candidates.iter().filter_map(of).collect::<Vec<_>>()
     };
-    let section = evidence.effect.regions.iter().fold(section, |section, region| {
+    let regions = evidence.effect.regions.iter().map(|region| {
         let caption = format!("Region {}: {}", region.name, region.description);
-        with(section, caption, &|fit| named(&fit.regions, region.name))
+        (caption, rows(|fit| &fit.regions, region.name))
     });
-    evidence.effect.hard_cases.iter().fold(section, |section, set| {
+    let hard_cases = evidence.effect.hard_cases.iter().map(|set| {
         let caption = format!("Hard cases ({}): {}", set.name, set.description);
-        with(section, caption, &|fit| named(&fit.hard_cases, set.name))
-    })
-}
-
-type Found<'a> = Option<&'a Accuracy>;
-
-fn named<'a>(judged: &'a [(String, Accuracy)], name: &str) -> Found<'a> {
-    judged.iter().find(|(of, _)| of == name).map(|(_, accuracy)| accuracy)
+        (caption, rows(|fit| &fit.hard_cases, set.name))
+    });
+    let tables = regions.chain(hard_cases).filter(|(_, rows)| !rows.is_empty());
+    section.blocks(tables.map(|(caption, rows)| table(caption, &rows)))
 }
 
 /// Units of the references that fits are judged by in a table.
@@ -51,18 +47,13 @@ fn units(rows: &[(&CandidateStudy, &Accuracy)]) -> String {
 fn table(caption: String, rows: &[(&CandidateStudy, &Accuracy)]) -> PrintedTable {
     let unit = units(rows);
     let of_errors = |title: &str| PrintedColumn::number(title, unit.as_str());
-    let mut table = PrintedTable::over(caption, rows)
-        .column(PrintedColumn::code("fit"), |(fit, _)| Cell::text(bare(&fit.name)));
+    let mut table = PrintedTable::over(caption, rows).code("fit", |(fit, _)| bare(&fit.name));
     if rows.iter().any(|(_, accuracy)| accuracy.yardstick == Yardstick::RelativeL2) {
         let grouped = rows.iter().any(|(_, accuracy)| !accuracy.relative_l2.at.is_empty());
         let title = if grouped { "relative L2, worst group" } else { "relative L2" };
         table = table
-            .column(PrintedColumn::number(title, "1"), |(_, of)| {
-                Cell::number(of.relative_l2.value, 3)
-            })
-            .column(PrintedColumn::text("worst group"), |(_, of)| {
-                Cell::text(place(&of.relative_l2.at))
-            });
+            .number(title, "1", |(_, of)| of.relative_l2.value)
+            .text("worst group", |(_, of)| place(&of.relative_l2.at, 4));
     }
     let largest = |title| of_errors(title).grouped("max |error|");
     table
@@ -72,10 +63,10 @@ fn table(caption: String, rows: &[(&CandidateStudy, &Accuracy)]) -> PrintedTable
         .column(of_errors("RMS, f32"), |(_, of)| Cell::number(of.f32.rms, 4))
         .column(of_errors("bias, f32"), |(_, of)| Cell::number(of.f32.bias, 3))
         .column(of_errors("p99, f32"), |(_, of)| Cell::number(of.f32.p99, 3))
-        .column(PrintedColumn::number("max relative, f32", "1"), |(_, of)| {
+        .number("max relative, f32", "1", |(_, of)| {
             Cell::number_or(of.f32.max_rel, 3, "the target is 0 everywhere")
         })
-        .column(PrintedColumn::text("where (f32)"), |(_, of)| Cell::text(place(&of.f32.max_abs_at)))
+        .text("where (f32)", |(_, of)| place(&of.f32.max_abs_at, 4))
         .table()
 }
 
@@ -85,7 +76,7 @@ pub(super) fn laws_section(evidence: &EffectEvidence<'_>) -> Section {
         return section.paragraph("No law is stated for this effect.");
     }
     let stated = evidence.effect.laws.iter();
-    let stated = stated.map(|law| format!("`{}`: {}", law.name, law.description).into());
+    let stated = stated.map(|law| format!("`{}`: {}", law.name, law.description));
     let verdict = |law: &&LawVerdict| match &law.verdict {
         LawStanding::Holds => Cell::verdict_as(Verdict::Pass, "holds"),
         LawStanding::Known(_) => Cell::verdict_as(Verdict::Warn, "known violation"),
@@ -95,16 +86,16 @@ pub(super) fn laws_section(evidence: &EffectEvidence<'_>) -> Section {
         "Every law against every fit, in f32, at the points where it is most likely to break.",
         &evidence.study.laws,
     )
-    .column(PrintedColumn::code("fit"), |law| Cell::text(bare(&law.fit)))
-    .column(PrintedColumn::code("law"), |law| Cell::text(law.law.as_str()))
-    .column(PrintedColumn::number("worst violation", "1"), |law| Cell::number(law.violation, 3))
-    .column(PrintedColumn::number("accepted", "1"), |law| Cell::number(law.tolerance, 3))
-    .column(PrintedColumn::verdict("verdict"), verdict)
-    .column(PrintedColumn::text("reason"), |law| match &law.verdict {
+    .code("fit", |law| bare(&law.fit))
+    .code("law", |law| law.law.as_str())
+    .number("worst violation", "1", |law| law.violation)
+    .number("accepted", "1", |law| law.tolerance)
+    .verdict("verdict", verdict)
+    .text("reason", |law| match &law.verdict {
         LawStanding::Known(reason) => Cell::text(reason.as_str()),
         LawStanding::Holds | LawStanding::Violated => Cell::text(""),
     });
-    section.block(Block::List(stated.collect())).block(table)
+    section.list(stated).block(table)
 }
 
 pub(super) fn parity_section(evidence: &EffectEvidence<'_>) -> Section {
@@ -127,8 +118,8 @@ pub(super) fn parity_section(evidence: &EffectEvidence<'_>) -> Section {
         "Distance between the device and the f32 lanes, in units in the last place of the result.",
         found,
     )
-    .column(PrintedColumn::code("fit"), |(fit, _)| Cell::text(*fit))
-    .column(PrintedColumn::number("points", "1"), |(_, parity)| Cell::count(parity.count))
+    .code("fit", |(fit, _)| *fit)
+    .number("points", "1", |(_, parity)| parity.count)
     .columns(
         0..BINS.len(),
         |at| match (*at, BINS[*at]) {
@@ -138,12 +129,8 @@ pub(super) fn parity_section(evidence: &EffectEvidence<'_>) -> Section {
         },
         |(_, parity), at| Cell::count(parity.histogram[*at]),
     )
-    .column(PrintedColumn::number("max", "ulp"), |(_, parity)| {
-        Cell::count(usize::try_from(parity.max_ulp).unwrap_or(usize::MAX))
-    })
-    .column(PrintedColumn::number("max |difference|", "1"), |(_, of)| Cell::number(of.max_abs, 3))
-    .column(PrintedColumn::number("NaN on one side", "1"), |(_, of)| {
-        Cell::count(of.nan_mismatches)
-    });
+    .number("max", "ulp", |(_, parity)| usize::try_from(parity.max_ulp).unwrap_or(usize::MAX))
+    .number("max |difference|", "1", |(_, of)| of.max_abs)
+    .number("NaN on one side", "1", |(_, of)| of.nan_mismatches);
     section.block(table)
 }

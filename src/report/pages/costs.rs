@@ -1,10 +1,8 @@
 //! Error against cost, with the frontier drawn.
 
 use super::{EffectEvidence, bare, device_notice, on_device};
-use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{
-    Block, Cell, Figure, Highlight, PrintedColumn, PrintedTable, Section, Verdict, number,
-};
+use crate::document::plot::{Plot, PlotAxis};
+use crate::document::{Block, Cell, Figure, PrintedColumn, PrintedTable, Section, Verdict, number};
 use crate::effect::{Effect, Yardstick};
 use crate::gpu::{Spread, TimingFigures};
 use crate::numeric::measured::Measured;
@@ -38,18 +36,13 @@ pub fn cost_section(title: &str, effect: &Effect, study: &Study, costs: &Costs) 
             .paragraph("Costs below are those of the f32 lanes on one core."),
     };
     let answers = groups(costs).into_iter().filter_map(|name| Answers::of(&standings, name));
-    let mut section = section
-        .block(Block::List(answers.map(|answers| answer(&answers).into()).collect()))
-        .block(table(&standings, costs));
-    let least = cheapest(study, costs);
-    if !least.is_empty() {
-        section = section.block(cheapest_table(&least));
-    }
-    let verdicts = goals(effect, study, costs);
-    if !verdicts.is_empty() {
-        section = section.block(goal_table(&verdicts));
-    }
-    section.block(references(costs))
+    let (least, verdicts) = (cheapest(study, costs), goals(effect, study, costs));
+    section
+        .list(answers.map(|answers| answer(&answers)))
+        .block(table(&standings, costs))
+        .blocks((!least.is_empty()).then(|| cheapest_table(&least)))
+        .blocks((!verdicts.is_empty()).then(|| goal_table(&verdicts)))
+        .block(references(costs))
 }
 
 /// What is as cheap as the baseline and better, and what is better and cheapest.
@@ -84,11 +77,7 @@ fn figures(evidence: &EffectEvidence<'_>) -> Vec<Figure> {
         };
         let x = PlotAxis::log(axis, "ns per evaluation");
         let y = PlotAxis::log(format!("{}, f32", yardstick.words()), "1");
-        let marked = points.iter().map(|(_, cost, error)| (*cost, *error));
-        let plot = Plot::new(title, x, y).series(Series::markers("forms", marked)).with_frontier();
-        let plot = points
-            .iter()
-            .fold(plot, |plot, (name, cost, error)| plot.annotate(*cost, *error, bare(name)));
+        let plot = Plot::new(title, x, y).with_labelled("forms", &points);
         let slug = effect.name.replace('_', "-");
         let stem = match number {
             0 => format!("{slug}-cost"),
@@ -125,7 +114,7 @@ fn errors<'a>(evidence: &EffectEvidence<'a>, baseline: &str) -> Points<'a> {
                 forms.find(|form| form.fit == cost.name)?.max_abs
             }
         };
-        Some((cost.name.as_str(), cost.nanoseconds(), error))
+        Some((bare(&cost.name), cost.nanoseconds(), error))
     });
     (points.collect(), yardstick)
 }
@@ -161,27 +150,26 @@ fn table(standings: &[Standing<'_>], costs: &Costs) -> PrintedTable {
          the frontier: no fit to the same reference errs less at no more cost.",
         standings,
     )
-    .column(PrintedColumn::code("fit"), |one| Cell::text(bare(one.fit)))
-    .column(PrintedColumn::text("frontier"), |one| {
-        Cell::text(if one.frontier { "●" } else { "" })
-    })
-    .column(PrintedColumn::text("error, f32"), |one| {
+    .code("fit", |one| bare(one.fit))
+    .text("frontier", |one| if one.frontier { "●" } else { "" })
+    .text("error, f32", |one| {
         let errors = one.error.iter();
         let errors = errors.map(|(region, error)| format!("{} ({region})", number(*error, 3)));
         Cell::text(errors.collect::<Vec<_>>().join(", "))
     })
-    .column(PrintedColumn::number("device", "ns"), timed(|of| Cell::number(of.net_ns.median, 3)))
-    .column(PrintedColumn::text("quartiles [ns]"), timed(|of| quartiles(Some(of.net_ns))))
-    .column(
-        PrintedColumn::number("ratio to baseline", "1"),
+    .number("device", "ns", timed(|of| Cell::number(of.net_ns.median, 3)))
+    .text("quartiles [ns]", timed(|of| quartiles(Some(of.net_ns))))
+    .number(
+        "ratio to baseline",
+        "1",
         timed(|of| {
             Cell::number_or(of.ratio.map(|ratio| ratio.median), 3, "no baseline to refer to")
         }),
     )
-    .column(PrintedColumn::text("quartiles of the ratio"), timed(|of| quartiles(of.ratio)))
-    .column(PrintedColumn::number("f32 lanes", "ns"), |one| Cell::number(one.cost.lanes_f32_ns, 3))
-    .column(PrintedColumn::number("f64 lanes", "ns"), |one| Cell::number(one.cost.lanes_f64_ns, 3))
-    .highlighted(Highlight::Subject, |one| one.fit == one.cost.baseline)
+    .text("quartiles of the ratio", timed(|of| quartiles(of.ratio)))
+    .number("f32 lanes", "ns", |one| one.cost.lanes_f32_ns)
+    .number("f64 lanes", "ns", |one| one.cost.lanes_f64_ns)
+    .subject(|one| one.fit == one.cost.baseline)
     .table()
 }
 
@@ -193,7 +181,7 @@ fn quartiles(of: Option<Spread>) -> Cell {
 fn operations(costs: &Costs) -> PrintedTable {
     let kinds = ["add, multiply", "divide, root", "elementary", "branches", "table reads"];
     PrintedTable::over("Operations in the text.", &costs.forms)
-        .column(PrintedColumn::code("fit"), |cost| Cell::text(bare(&cost.name)))
+        .code("fit", |cost| bare(&cost.name))
         .columns(
             kinds.into_iter().enumerate(),
             |(_, kind)| PrintedColumn::number(*kind, "1"),
@@ -217,8 +205,8 @@ fn cheapest_table(least: &[Cheapest]) -> PrintedTable {
          brackets. Errors in f32 by the yardstick of the region.",
         least,
     )
-    .column(PrintedColumn::text("region"), |of| Cell::text(of.region.as_str()))
-    .column(PrintedColumn::code("baseline"), |of| Cell::text(bare(&of.baseline)))
+    .text("region", |of| of.region.as_str())
+    .code("baseline", |of| bare(&of.baseline))
     .columns(
         LIMITS.into_iter().enumerate(),
         |(_, limit)| PrintedColumn::text(format!("≤ {} %", 100.0 * limit)),
@@ -233,27 +221,25 @@ fn goal_table(verdicts: &[GoalVerdict]) -> PrintedTable {
          there is none) and cost relative to the baseline.",
         verdicts,
     )
-    .column(PrintedColumn::code("fit"), |goal| Cell::text(bare(&goal.fit)))
-    .column(PrintedColumn::text("error, region"), |goal| {
-        Cell::text(format!("{}, {}", goal.yardstick, goal.region))
-    })
-    .column(PrintedColumn::number("asked", "1"), |goal| Cell::number(goal.error_asked, 3))
-    .column(PrintedColumn::number("reached", "1"), |goal| Cell::number(goal.error, 3))
-    .column(PrintedColumn::code("baseline"), |goal| Cell::text(bare(&goal.baseline)))
-    .column(PrintedColumn::number("cost asked", "1"), |goal| Cell::number(goal.cost_asked, 3))
-    .column(PrintedColumn::number("cost", "1"), |goal| on_device(&goal.cost, 3))
-    .column(PrintedColumn::verdict("verdict"), |goal| match &goal.met {
+    .code("fit", |goal| bare(&goal.fit))
+    .text("error, region", |goal| format!("{}, {}", goal.yardstick, goal.region))
+    .number("asked", "1", |goal| goal.error_asked)
+    .number("reached", "1", |goal| goal.error)
+    .code("baseline", |goal| bare(&goal.baseline))
+    .number("cost asked", "1", |goal| goal.cost_asked)
+    .number("cost", "1", |goal| on_device(&goal.cost, 3))
+    .verdict("verdict", |goal| match &goal.met {
         Measured::Value(true) => Cell::verdict_as(Verdict::Pass, "met"),
         Measured::Value(false) => Cell::verdict_as(Verdict::Fail, "not met"),
         Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
     })
-    .column(PrintedColumn::text("why"), |goal| Cell::text(goal.why.as_str()))
+    .text("why", |goal| goal.why.as_str())
     .table()
 }
 
 fn references(costs: &Costs) -> PrintedTable {
     PrintedTable::over("Cost of the references, one core, for scale.", &costs.references)
-        .column(PrintedColumn::code("reference"), |of| Cell::text(of.name.as_str()))
-        .column(PrintedColumn::number("f64", "ns"), |of| Cell::number(of.ns, 3))
+        .code("reference", |of| of.name.as_str())
+        .number("f64", "ns", |of| of.ns)
         .table()
 }

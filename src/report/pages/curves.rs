@@ -79,10 +79,9 @@ fn figures(
             let baseline = evidence.effect.baselines.contains(&curve.name.as_str());
             plot = plot.series(if baseline { series.strong() } else { series });
         }
-        let finer = if coarse.len() < curves.len() {
-            " Forms below 1e-3 are in the next figure."
-        } else {
-            ""
+        let finer = match coarse.len() < curves.len() {
+            true => " Forms below 1e-3 are in the next figure.",
+            false => "",
         };
         let caption = format!("Error over {}. {}.{finer}", region.name, sentence(region));
         section = section.block(Figure::new(format!("{slug}-error-{number}"), caption, plot));

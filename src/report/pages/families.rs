@@ -1,8 +1,8 @@
 //! Fits to families of measured tables, and what finer fitting is worth.
 
-use super::{EffectEvidence, bare, place};
+use super::{EffectEvidence, bare};
 use crate::document::plot::{Plot, PlotAxis, Series};
-use crate::document::{Block, Cell, Figure, PrintedColumn, PrintedTable, Section, number};
+use crate::document::{Cell, Figure, PrintedColumn, PrintedTable, Section, number, place};
 use crate::effect::{Family, Member};
 use crate::project::Approximated;
 use crate::validate::ValidateError;
@@ -21,7 +21,8 @@ pub(super) fn section(
 ) -> Result<Section, ValidateError> {
     let description =
         position(evidence, &family.family).map_or("", |(_, family)| family.description);
-    let cost: Vec<f64> = family.forms.iter().map(|form| cost(evidence, &form.fit)).collect();
+    let cost = family.forms.iter().map(|form| evidence.cost(&form.fit).unwrap_or(f64::INFINITY));
+    let cost: Vec<f64> = cost.collect();
     let choices = choices(&family.forms, &family.spreads, &cost);
     let mut section = Section::new(format!("Family: {}", family.family.replace('_', " ")))
         .paragraph(description)
@@ -38,23 +39,12 @@ pub(super) fn section(
     {
         section = section.block(figure(evidence, family, registered, members)?);
     }
-    Ok(section.block(Block::Details {
-        summary: "Every member, every form: RMS in f32 on held-out points".into(),
-        blocks: vec![member_table(family).into()],
-    }))
+    let summary = "Every member, every form: RMS in f32 on held-out points";
+    Ok(section.details(summary, member_table(family)))
 }
 
 fn position<'a>(evidence: &EffectEvidence<'a>, name: &str) -> Option<(usize, &'a Family)> {
     evidence.effect.families.iter().enumerate().find(|(_, family)| family.name == name)
-}
-
-fn cost(evidence: &EffectEvidence<'_>, fit: &str) -> f64 {
-    evidence
-        .costs
-        .forms
-        .iter()
-        .find(|cost| cost.name == fit)
-        .map_or(f64::INFINITY, |cost| cost.nanoseconds())
 }
 
 fn forms_table(family: &FamilyStudy, cost: &[f64]) -> PrintedTable {
@@ -72,14 +62,14 @@ fn forms_table(family: &FamilyStudy, cost: &[f64]) -> PrintedTable {
          materials and bands: what a constant is known to.",
         forms,
     )
-    .column(PrintedColumn::code("fit"), |(form, _)| Cell::text(bare(&form.fit)))
-    .column(PrintedColumn::number("free constants", "1"), |(form, _)| Cell::count(form.free))
-    .column(PrintedColumn::number("RMS", "1"), |(form, _)| Cell::number(form.rms, 3))
-    .column(PrintedColumn::number("max", "1"), |(form, _)| Cell::number(form.max_abs, 3))
-    .column(PrintedColumn::text("worst member"), |(form, _)| Cell::text(form.max_member.as_str()))
-    .column(PrintedColumn::text("where"), |(form, _)| Cell::text(place(&form.max_at)))
-    .column(PrintedColumn::number("cost", "ns"), |(_, cost)| Cell::number(**cost, 3))
-    .column(PrintedColumn::text("spread of the constants between sources"), |(form, _)| spread(form))
+    .code("fit", |(form, _)| bare(&form.fit))
+    .number("free constants", "1", |(form, _)| form.free)
+    .number("RMS", "1", |(form, _)| form.rms)
+    .number("max", "1", |(form, _)| form.max_abs)
+    .text("worst member", |(form, _)| form.max_member.as_str())
+    .text("where", |(form, _)| place(&form.max_at, 4))
+    .number("cost", "ns", |(_, cost)| **cost)
+    .text("spread of the constants between sources", |(form, _)| spread(form))
     .table()
 }
 
@@ -88,28 +78,26 @@ fn choice_table(choices: &[Choice]) -> PrintedTable {
         "For each material, the cheapest form whose error stays within the spread of its sources.",
         choices,
     )
-    .column(PrintedColumn::text("material"), |of| Cell::text(of.group.as_str()))
-    .column(PrintedColumn::number("spread of the sources, RMS", "1"), |of| {
-        Cell::number_or(of.spread_rms, 3, "one source")
-    })
-    .column(PrintedColumn::code("cheapest within it"), |of| {
+    .text("material", |of| of.group.as_str())
+    .number("spread of the sources, RMS", "1", |of| Cell::number_or(of.spread_rms, 3, "one source"))
+    .code("cheapest within it", |of| {
         let none = if of.spread_rms.is_some() { "none" } else { "–" };
         Cell::text(of.cheapest.as_deref().map_or(none, bare))
     })
-    .column(PrintedColumn::number("its RMS error", "1"), |of| {
+    .number("its RMS error", "1", |of| {
         of.rms.map_or_else(|| Cell::text("–"), |rms| Cell::number(rms, 3))
     })
-    .column(PrintedColumn::text("because"), |of| Cell::text(of.reason.as_str()))
+    .text("because", |of| of.reason.as_str())
     .table()
 }
 
 fn spread_table(family: &FamilyStudy) -> PrintedTable {
     PrintedTable::over("How far the sources of a material are apart.", &family.spreads)
-        .column(PrintedColumn::text("material"), |of| Cell::text(of.group.as_str()))
-        .column(PrintedColumn::text("sources"), |of| Cell::text(of.sources.join(", ")))
-        .column(PrintedColumn::number("RMS difference", "1"), |of| Cell::number(of.rms, 3))
-        .column(PrintedColumn::number("max difference", "1"), |of| Cell::number(of.max_abs, 3))
-        .column(PrintedColumn::text("band of the max"), |of| Cell::text(of.max_band.as_str()))
+        .text("material", |of| of.group.as_str())
+        .text("sources", |of| of.sources.join(", "))
+        .number("RMS difference", "1", |of| of.rms)
+        .number("max difference", "1", |of| of.max_abs)
+        .text("band of the max", |of| of.max_band.as_str())
         .table()
 }
 
@@ -126,7 +114,7 @@ fn group_table(family: &FamilyStudy) -> PrintedTable {
         "RMS error per material, all bands and sources together, f32.",
         groups(family),
     )
-    .column(PrintedColumn::text("material"), |group| Cell::text(*group))
+    .text("material", |group| *group)
     .columns(&family.forms, named, |group, form| Cell::number(group_rms(form, group), 3))
     .table()
 }
@@ -134,7 +122,7 @@ fn group_table(family: &FamilyStudy) -> PrintedTable {
 fn member_table(family: &FamilyStudy) -> PrintedTable {
     let members = family.forms.first().map_or(&[][..], |form| &form.members);
     PrintedTable::over("RMS error per member, f32.", members.iter().enumerate())
-        .column(PrintedColumn::text("member"), |(_, member)| Cell::text(member.label.as_str()))
+        .text("member", |(_, member)| member.label.as_str())
         .columns(&family.forms, named, |(at, _), form| {
             let rms = form.members.get(*at).map(|member| member.residuals.rms);
             Cell::number_or(rms, 3, "no such member")

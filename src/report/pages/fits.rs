@@ -1,7 +1,7 @@
 //! What was fitted to what, and the constants.
 
 use super::{EffectEvidence, bare, families};
-use crate::document::{Block, Cell, PrintedColumn, PrintedTable, Section, Verdict};
+use crate::document::{Cell, PrintedColumn, PrintedTable, Section, Verdict};
 use crate::effect::Reference;
 use crate::fit::outcome::{Outcome, Status};
 
@@ -16,17 +16,17 @@ pub(super) fn exact_section(evidence: &EffectEvidence<'_>) -> Section {
         "References: exact values, from formulas that no form shares.",
         effect.references,
     )
-    .column(PrintedColumn::code("reference"), |reference| Cell::text(reference.name))
-    .column(PrintedColumn::text("what"), |reference| Cell::text(reference.description))
-    .column(PrintedColumn::text("arguments"), arguments)
-    .column(PrintedColumn::text("accuracy"), |reference| Cell::text(reference.accuracy))
-    .column(PrintedColumn::text("source"), |reference| Cell::text(reference.source));
+    .code("reference", |reference| reference.name)
+    .text("what", |reference| reference.description)
+    .text("arguments", arguments)
+    .text("accuracy", |reference| reference.accuracy)
+    .text("source", |reference| reference.source);
     let forms =
         PrintedTable::over("Forms: approximations, each one WGSL function.", evidence.forms)
-            .column(PrintedColumn::code("form"), |form| Cell::text(form.name.as_str()))
-            .column(PrintedColumn::text("what"), |form| Cell::text(form.description.as_str()))
-            .column(PrintedColumn::text("from"), |form| Cell::text(form.citation.as_str()))
-            .column(PrintedColumn::code("text"), |form| Cell::text(form.path.as_str()));
+            .code("form", |form| form.name.as_str())
+            .text("what", |form| form.description.as_str())
+            .text("from", |form| form.citation.as_str())
+            .code("text", |form| form.path.as_str());
     Section::new("What is exact, and what approximates it").block(references).block(forms)
 }
 
@@ -40,17 +40,12 @@ pub(super) fn fitted_section(evidence: &EffectEvidence<'_>) -> Section {
                 "Alternations: how often a minimax fit's error reaches its maximum with alternating sign; \
                  one more than the number of free constants proves the optimum.",
             )
-            .block(Block::Details {
-                summary: "Every constant, as shipped".into(),
-                blocks: vec![constants(outcomes()).into()],
-            });
+            .details("Every constant, as shipped", constants(outcomes()));
     }
     for family in families(evidence) {
         let (name, of) = (&family.name, &family.family);
-        section = section.block(Block::Details {
-            summary: format!("Constants of `{name}` for every member of `{of}`").into(),
-            blocks: vec![family_constants(&family.members).into()],
-        });
+        let summary = format!("Constants of `{name}` for every member of `{of}`");
+        section = section.details(summary, family_constants(&family.members));
     }
     section
 }
@@ -60,20 +55,16 @@ fn fits<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> PrintedTable {
         "Fits to references. RMS and max over the fitted points, of the constants as shipped, in f32.",
         outcomes,
     )
-    .column(PrintedColumn::code("fit"), |of| Cell::text(bare(&of.name)))
-    .column(PrintedColumn::code("form"), |of| Cell::text(bare(&of.form)))
-    .column(PrintedColumn::code("target"), |of| Cell::text(of.target.as_str()))
-    .column(PrintedColumn::text("loss"), |of| Cell::text(of.loss.as_str()))
-    .column(PrintedColumn::verdict("status"), |of| status(of))
-    .column(PrintedColumn::text("solver"), |of| {
-        Cell::text(of.solver.split(" (").next().unwrap_or_default())
-    })
-    .column(PrintedColumn::number("free", "1"), |of| Cell::count(of.free_count()))
-    .column(PrintedColumn::number("RMS", "1"), |of| Cell::number(of.residuals_f32.rms, 4))
-    .column(PrintedColumn::number("max", "1"), |of| Cell::number(of.residuals_f32.max_abs, 4))
-    .column(PrintedColumn::number("alternations", "1"), |of| {
-        of.equioscillations.map_or_else(|| Cell::text("–"), Cell::count)
-    })
+    .code("fit", |of| bare(&of.name))
+    .code("form", |of| bare(&of.form))
+    .code("target", |of| of.target.as_str())
+    .text("loss", |of| of.loss.as_str())
+    .verdict("status", |of| status(of))
+    .text("solver", |of| of.solver.split(" (").next().unwrap_or_default())
+    .number("free", "1", |of| of.free_count())
+    .number("RMS", "1", |of| (of.residuals_f32.rms, 4))
+    .number("max", "1", |of| (of.residuals_f32.max_abs, 4))
+    .number("alternations", "1", |of| of.equioscillations.map_or_else(|| Cell::text("–"), Cell::count))
     .table()
 }
 
@@ -93,15 +84,13 @@ pub fn constants<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> PrintedTabl
         outcome.parameters.iter().map(|(name, constant)| (&outcome.name, name, constant))
     });
     PrintedTable::over("Constants: the optimum in f64, and the f32 that ships.", constants)
-        .column(PrintedColumn::code("fit"), |(fit, ..)| Cell::text(bare(fit)))
-        .column(PrintedColumn::code("constant"), |(_, name, _)| Cell::text(name.as_str()))
-        .column(PrintedColumn::number("f64", "1"), |(.., constant)| {
-            Cell::number(constant.value, 17)
-        })
-        .column(PrintedColumn::number("f32", "1"), |(.., constant)| Cell::single(constant.f32))
-        .column(PrintedColumn::code("bits"), |(.., constant)| Cell::text(constant.f32_hex.as_str()))
-        .column(PrintedColumn::text("role"), |(.., constant)| Cell::text(constant.role.as_str()))
-        .column(PrintedColumn::number("standard error", "1"), |(.., constant)| {
+        .code("fit", |(fit, ..)| bare(fit))
+        .code("constant", |(_, name, _)| name.as_str())
+        .number("f64", "1", |(.., constant)| (constant.value, 17))
+        .number("f32", "1", |(.., constant)| Cell::single(constant.f32))
+        .code("bits", |(.., constant)| constant.f32_hex.as_str())
+        .text("role", |(.., constant)| constant.role.as_str())
+        .number("standard error", "1", |(.., constant)| {
             let why = || Cell::text(constant.why_no_stderr.as_deref().unwrap_or("–"));
             constant.stderr.map_or_else(why, |error| Cell::number(error, 4))
         })
@@ -114,8 +103,8 @@ pub fn family_constants(members: &[Outcome]) -> PrintedTable {
     let label = |of: &&Outcome| of.name.split_once('#').map_or(of.name.clone(), |(_, l)| l.into());
     let caption = "Constants as shipped (f32), and residuals over the fitted points.";
     PrintedTable::over(caption, members)
-        .column(PrintedColumn::code("member"), |of| Cell::text(label(of)))
-        .column(PrintedColumn::verdict("status"), |of| status(of))
+        .code("member", |of| label(of))
+        .verdict("status", |of| status(of))
         .columns(
             names,
             |name| PrintedColumn::number(name.as_str(), "1"),
@@ -124,7 +113,7 @@ pub fn family_constants(members: &[Outcome]) -> PrintedTable {
                 constant.map_or_else(|| Cell::missing("absent"), |c| Cell::single(c.f32))
             },
         )
-        .column(PrintedColumn::number("RMS", "1"), |of| Cell::number(of.residuals_f32.rms, 4))
-        .column(PrintedColumn::number("max", "1"), |of| Cell::number(of.residuals_f32.max_abs, 4))
+        .number("RMS", "1", |of| (of.residuals_f32.rms, 4))
+        .number("max", "1", |of| (of.residuals_f32.max_abs, 4))
         .table()
 }

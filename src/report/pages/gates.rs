@@ -1,6 +1,6 @@
 //! Gates and their margins.
 
-use crate::document::{Cell, NoticeLevel, PrintedColumn, PrintedTable, Section, Verdict};
+use crate::document::{Cell, NoticeLevel, PrintedTable, Section, Verdict};
 use crate::gate::Judgement;
 
 /// The gates that plainly pass, in their order, and those that need attention, failures first.
@@ -25,21 +25,16 @@ pub(super) fn attention_section(title: &str, gates: &[&Judgement]) -> Section {
         Some(Verdict::NotMeasured) => NoticeLevel::NotMeasured,
         Some(Verdict::Pass) | None => NoticeLevel::Info,
     };
-    let section = section.notice(level, summary(gates));
-    if attention.is_empty() {
-        return section;
-    }
     let caption = "Gates that failed, were not measured, or are close to their limit.";
-    section.block(table(caption, &attention))
+    section
+        .notice(level, summary(gates))
+        .blocks((!attention.is_empty()).then(|| table(caption, &attention)))
 }
 
 /// The gates of a page: what needs attention, then all of them.
 pub(super) fn section(gates: &[&Judgement]) -> Section {
-    let section = attention_section("Gates", gates);
-    if gates.is_empty() {
-        return section;
-    }
-    section.block(table("Every budget of `fits/gates.toml` on what this page shows.", gates))
+    let caption = "Every budget of `fits/gates.toml` on what this page shows.";
+    attention_section("Gates", gates).blocks((!gates.is_empty()).then(|| table(caption, gates)))
 }
 
 /// `2 gates: 2 passed, 0 of them with a warning, 0 not measured, 0 failed`.
@@ -58,28 +53,26 @@ pub fn summary(gates: &[&Judgement]) -> String {
 /// A row per gate: verdict, what was measured of which limit and where, and why the gate is there.
 pub fn table(caption: &str, gates: &[&Judgement]) -> PrintedTable {
     PrintedTable::over(caption, gates)
-        .column(PrintedColumn::verdict("verdict"), |of| Cell::verdict(of.verdict))
-        .column(PrintedColumn::code("subject"), |of| Cell::text(of.gate.subject.as_str()))
-        .column(PrintedColumn::code("metric"), |of| {
-            Cell::text(format!("{} {}", of.gate.metric, of.gate.precision))
+        .verdict("verdict", |of| of.verdict)
+        .code("subject", |of| of.gate.subject.as_str())
+        .code("metric", |of| format!("{} {}", of.gate.metric, of.gate.precision))
+        .text("domain", |of| {
+            of.gate.domain.as_ref().map_or("as fitted".to_owned(), ToString::to_string)
         })
-        .column(PrintedColumn::text("domain"), |of| {
-            Cell::text(of.gate.domain.as_ref().map_or("as fitted".to_owned(), ToString::to_string))
-        })
-        .column(PrintedColumn::figures("measured"), |of| {
+        .figures("measured", |of| {
             let why = of.reason.as_deref().unwrap_or_default();
             Cell::number_or(of.measured.as_ref().map(|found| found.value), 5, why)
         })
-        .column(PrintedColumn::figures("limit"), |of| Cell::number(of.gate.limit, 5))
-        .column(PrintedColumn::number("left", "%"), |of| {
-            of.margin().map_or_else(|| Cell::text(""), |left| Cell::number(100.0 * left, 3))
+        .figures("limit", |of| (of.gate.limit, 5))
+        .number("left", "%", |of| {
+            of.margin.map_or_else(|| Cell::text(""), |left| Cell::number(100.0 * left, 3))
         })
-        .column(PrintedColumn::text("where"), |of| {
-            Cell::text(of.measured.as_ref().map_or_else(String::new, |found| match &of.reason {
+        .text("where", |of| {
+            of.measured.as_ref().map_or_else(String::new, |found| match &of.reason {
                 Some(reason) => reason.clone(),
                 None => found.place(),
-            }))
+            })
         })
-        .column(PrintedColumn::text("why it is there"), |of| Cell::text(of.gate.why.as_str()))
+        .text("why it is there", |of| of.gate.why.as_str())
         .table()
 }

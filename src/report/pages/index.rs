@@ -1,7 +1,7 @@
 //! The index: what needs attention, one row per effect, and the errors at a glance.
 
 use super::{EffectEvidence, bare, gates};
-use crate::document::{Cell, Page, PrintedColumn, PrintedTable, Section, Verdict};
+use crate::document::{Cell, Page, PrintedTable, Section, Verdict};
 use crate::gate::Judgement;
 use crate::numeric::measured::Measured;
 
@@ -20,19 +20,15 @@ pub fn index_page(effects: &[EffectEvidence<'_>], gates: &[&Judgement]) -> Page 
 fn overview(effects: &[EffectEvidence<'_>]) -> PrintedTable {
     let passed = |gate: &&&Judgement| matches!(gate.verdict, Verdict::Pass | Verdict::Warn);
     PrintedTable::over("Effects.", effects)
-        .column(PrintedColumn::text("effect"), |of| {
-            Cell::link(of.effect.title, format!("{}.html", of.effect.name))
-        })
-        .column(PrintedColumn::number("candidates", "1"), |of| Cell::count(of.subjects.len()))
-        .column(PrintedColumn::number("fits", "1"), |of| {
+        .text("effect", |of| Cell::link(of.effect.title, format!("{}.html", of.effect.name)))
+        .number("candidates", "1", |of| of.subjects.len())
+        .number("fits", "1", |of| {
             let fitted = of.subjects.iter().filter_map(|subject| subject.fitted.as_ref());
             Cell::count(fitted.map(|fitted| fitted.result.outcomes().len()).sum())
         })
-        .column(PrintedColumn::number("gates passed", "1"), |of| {
-            Cell::count(of.gates.iter().filter(passed).count())
-        })
-        .column(PrintedColumn::number("gates", "1"), |of| Cell::count(of.gates.len()))
-        .column(PrintedColumn::text("device"), |of| match &of.costs.adapter {
+        .number("gates passed", "1", |of| of.gates.iter().filter(passed).count())
+        .number("gates", "1", |of| of.gates.len())
+        .text("device", |of| match &of.costs.adapter {
             Measured::Value(adapter) => Cell::text(adapter.to_string()),
             Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
         })
@@ -50,13 +46,12 @@ fn errors(effects: &[EffectEvidence<'_>]) -> PrintedTable {
          measured.",
         fits,
     )
-    .column(PrintedColumn::text("effect"), |(of, ..)| Cell::text(of.effect.title))
-    .column(PrintedColumn::code("fit"), |(_, fit, _)| Cell::text(bare(&fit.name)))
-    .column(PrintedColumn::text("error"), |(.., accuracy)| Cell::text(accuracy.yardstick.words()))
-    .column(PrintedColumn::number("value", "1"), |(.., accuracy)| Cell::number(accuracy.headline(), 3))
-    .column(PrintedColumn::number("cost", "ns"), |(of, fit, _)| {
-        let cost = of.costs.forms.iter().find(|cost| cost.name == fit.name);
-        Cell::number_or(cost.map(|cost| cost.nanoseconds()), 3, "not timed")
+    .text("effect", |(of, ..)| of.effect.title)
+    .code("fit", |(_, fit, _)| bare(&fit.name))
+    .text("error", |(.., accuracy)| accuracy.yardstick.words())
+    .number("value", "1", |(.., accuracy)| accuracy.headline())
+    .number("cost", "ns", |(of, fit, _)| {
+        Cell::number_or(of.cost(&fit.name), 3, "not timed")
     })
     .table()
 }

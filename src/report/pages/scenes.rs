@@ -4,9 +4,9 @@
 use std::sync::Arc;
 
 use super::gates;
-use crate::document::plot::{Plot, PlotAxis, Series};
+use crate::document::plot::{Plot, PlotAxis};
 use crate::document::{
-    Block, Cell, Figure, Inline, NoticeLevel, Page, Picture, PrintedColumn, PrintedTable, Section,
+    Block, Cell, Figure, Inline, NoticeLevel, Page, Picture, PrintedTable, Section,
 };
 use crate::effect::Finding;
 use crate::gate::Judgement;
@@ -45,12 +45,12 @@ pub fn scenes_page(scenes: &[SceneEvidence], gates: &[&Judgement]) -> Result<Pag
     }
     let findings: Vec<Finding> =
         scenes.iter().flat_map(|of| findings(&of.scene.scene, &of.rendered)).collect();
-    Ok(page.section(super::findings::table_section(&findings)).section(gates::section(gates)))
+    Ok(page.section(super::findings::section(&findings)).section(gates::section(gates)))
 }
 
 fn section(scene: &Scene, rendered: &Rendered) -> Result<Section, RenderError> {
     let exposure = scene.view.exposure;
-    let mut section = Section::new(scene.name.as_str())
+    let section = Section::new(scene.name.as_str())
         .paragraph(Inline::from(scene.description.clone()))
         .paragraph(format!(
             "{}; radiance times {exposure}. Reference: {}; approximations on {}. `striae render \
@@ -64,7 +64,7 @@ fn section(scene: &Scene, rendered: &Rendered) -> Result<Section, RenderError> {
         rendered.approximations.iter().map(|found| found.name.as_str()).collect();
     let (sheet, scale) = comparison(rendered, exposure)?;
     let beside = if rendered.monte_carlo.is_some() { ", Monte Carlo beside it" } else { "" };
-    section = section.block(Picture {
+    let section = section.block(Picture {
         caption: format!(
             "Left, from top to bottom: reference{beside}, {}. Right: the error of each relative to the \
              root mean square of the reference, black for 0 to pale for {scale} and above.",
@@ -75,8 +75,7 @@ fn section(scene: &Scene, rendered: &Rendered) -> Result<Section, RenderError> {
         alt: format!("{}: the reference above its approximations, and their errors", scene.name),
         png: sheet.png(exposure.log2())?,
     });
-    section.blocks.extend(scene_tables(rendered));
-    Ok(section)
+    Ok(section.blocks(scene_tables(rendered)))
 }
 
 /// What the pixels of a scene show.
@@ -124,36 +123,28 @@ fn errors(rendered: &Rendered) -> PrintedTable {
         "Approximations against the reference, over all pixels and channels.",
         &rendered.approximations,
     )
-    .column(PrintedColumn::code("approximation"), |found| Cell::text(found.name.as_str()))
-    .column(PrintedColumn::code("shaded by"), |found| Cell::text(found.method.words()))
-    .column(PrintedColumn::number("relative RMS", "1"), |found| {
-        Cell::number(found.metrics.relative_rms, 4)
-    })
-    .column(PrintedColumn::number("FLIP", "1"), |found| Cell::number(found.metrics.flip, 4))
-    .column(PrintedColumn::number("mean error", "radiance"), |found| {
-        Cell::number(found.metrics.mean, 3)
-    })
-    .column(PrintedColumn::number("max |error|", "radiance"), |found| {
-        Cell::number(found.metrics.max, 4)
-    })
-    .column(PrintedColumn::text("where"), |found| {
+    .code("approximation", |found| found.name.as_str())
+    .code("shaded by", |found| found.method.words())
+    .number("relative RMS", "1", |found| (found.metrics.relative_rms, 4))
+    .number("FLIP", "1", |found| (found.metrics.flip, 4))
+    .number("mean error", "radiance", |found| found.metrics.mean)
+    .number("max |error|", "radiance", |found| (found.metrics.max, 4))
+    .text("where", |found| {
         let ((x, y), channel) = (found.metrics.at, &found.metrics.channel);
-        Cell::text(format!("{x}, {y} {channel}"))
+        format!("{x}, {y} {channel}")
     });
     let Measured::Value(times) = &rendered.times else { return table.table() };
-    let mut table = table
-        .column(PrintedColumn::number("a frame", "ms"), |found| Cell::measured(&found.frame_ms, 3));
+    let mut table = table.number("a frame", "ms", |found| Cell::measured(&found.frame_ms, 3));
     if times.full_ms.value().is_some() {
-        table = table.column(PrintedColumn::number("in full, times slower", "1"), |found| {
-            Cell::measured(&found.full_over, 3)
-        });
+        table =
+            table.number("in full, times slower", "1", |found| Cell::measured(&found.full_over, 3));
     }
     if rendered.monte_carlo.is_some() {
         table = table
-            .column(PrintedColumn::number("samples at equal error", "1"), |found| {
+            .number("samples at equal error", "1", |found| {
                 Cell::measured(&found.equal_error.map(|equal| equal.samples), 3)
             })
-            .column(PrintedColumn::number("Monte Carlo, times slower", "1"), |found| {
+            .number("Monte Carlo, times slower", "1", |found| {
                 Cell::measured(&found.equal_error.map(|equal| equal.ratio), 3)
             });
     }
@@ -171,15 +162,10 @@ fn frontier(rendered: &Rendered) -> Option<Figure> {
         return None;
     }
     let plot = |title: &str, error: fn(&RenderedApproximation) -> f64| {
-        let points: Vec<(f64, f64)> = timed.iter().map(|(f, ms)| (*ms, error(f))).collect();
-        let mut plot =
-            Plot::new(title, PlotAxis::log("time of a frame", "ms"), PlotAxis::log(title, "1"))
-                .series(Series::markers("approximations", points.iter().copied()))
-                .with_frontier();
-        for ((found, _), (ms, error)) in timed.iter().zip(points) {
-            plot = plot.annotate(ms, error, found.name.as_str());
-        }
-        plot
+        let points = timed.iter().map(|(of, ms)| (of.name.as_str(), *ms, error(of)));
+        let points: Vec<(&str, f64, f64)> = points.collect();
+        Plot::new(title, PlotAxis::log("time of a frame", "ms"), PlotAxis::log(title, "1"))
+            .with_labelled("approximations", &points)
     };
     Some(Figure::grid(
         format!("scene-{}-frontier", rendered.name.replace('_', "-")),

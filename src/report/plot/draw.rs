@@ -1,15 +1,13 @@
 //! The layout of a figure: its plots in rows, its legend under them.
 
-use std::fmt::Write as _;
-
+use super::canvas::{Canvas, UNITS, dark_rules, escaped};
 use super::frame::Rect;
-use super::ink::{DARK_RULES, resolve};
 use super::legend::{Legend, Swatch};
-use super::panel::{Axes, Margins, Panel, Shown};
+use super::panel::{Panel, Shown, axes, label_width};
+use super::scale::Span;
 use super::series::{Fineness, Look, Traced};
-use super::surface::{Refused, Surface, UNITS, printable};
 use crate::document::Figure;
-use crate::document::plot::{Plot, PlotError, Series};
+use crate::document::plot::{Plot, Series};
 
 /// Width of a figure, in pixels.
 const WIDTH: f64 = 780.0;
@@ -24,7 +22,7 @@ const MARKERS: usize = 400;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
     /// An `svg` element to stand inside a page: it takes the colour of the text around it, and
-    /// wants [`DARK_RULES`] from the page. Its identifiers begin with the figure's file stem.
+    /// wants [`dark_rules`] from the page. Its identifiers begin with the figure's file stem.
     pub svg: String,
     /// What the caption must add: points that could not be drawn, and why.
     pub notes: Vec<String>,
@@ -43,7 +41,8 @@ impl Drawing {
         let style = format!(
             "<style>svg{{background:#fff;color:#1b1f24}}\
              @media (prefers-color-scheme:dark){{svg{{background:#14171c;color:#e4e7eb}}\
-             {DARK_RULES}}}</style>\n"
+             {}}}</style>\n",
+            dark_rules()
         );
         match self.svg.split_once('\n') {
             Some((root, rest)) => format!("{root}\n{style}{rest}"),
@@ -53,13 +52,8 @@ impl Drawing {
 }
 
 /// Draws a figure.
-///
-/// # Errors
-/// [`PlotError`] if it holds no plot, or if the drawing library refuses.
-pub fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
-    if figure.plots.is_empty() {
-        return Err(PlotError::Empty { figure: figure.file_stem.clone() });
-    }
+#[must_use]
+pub fn draw(figure: &Figure) -> Drawing {
     let names = names(&figure.plots);
     let panels = panels(figure, &names);
     let bottom = panels.iter().map(|p| p.frame.area.bottom()).fold(0.0, f64::max);
@@ -70,7 +64,6 @@ pub fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
     let legend_area = legend.area(left, top);
     let height = legend_area.map_or(top, |area| area.bottom()) + GUTTER;
 
-    let mut drawn = String::new();
     let mut notes: Vec<String> = Vec::new();
     for note in panels.iter().flat_map(Panel::notes) {
         if !notes.contains(&note) {
@@ -85,17 +78,17 @@ pub fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
     }
     let marker = if figure.per_row > 2 { 0.7 } else { 1.0 };
     let fineness = Fineness { column, cell, marker };
-    paint(&mut drawn, (WIDTH, height), &panels, &legend, (left, top), fineness).map_err(
-        |Refused(reason)| PlotError::Backend { figure: figure.file_stem.clone(), reason },
-    )?;
+    let mut canvas = Canvas::default();
+    panels.iter().for_each(|panel| panel.draw(&mut canvas, fineness));
+    legend.draw(&mut canvas, left, top);
     let area = |panel: &Panel<'_>| panel.labels.iter().map(|l| l.area).collect();
-    Ok(Drawing {
-        svg: wrapped(figure, &resolve(&drawn), height),
+    Drawing {
+        svg: wrapped(figure, &canvas.svg, height),
         notes,
         plot_areas: panels.iter().map(|p| p.frame.area).collect(),
         legend: legend_area,
         labels: panels.iter().map(area).collect(),
-    })
+    }
 }
 
 fn total<'a>(series: impl Iterator<Item = &'a Traced>, count: impl Fn(&Traced) -> usize) -> usize {
@@ -109,22 +102,6 @@ fn smallest(first: f64, factor: f64, enough: impl Fn(f64) -> bool) -> f64 {
         size *= factor;
     }
     size
-}
-
-fn paint(
-    buffer: &mut String,
-    (width, height): (f64, f64),
-    panels: &[Panel<'_>],
-    legend: &Legend,
-    (left, top): (f64, f64),
-    fineness: Fineness,
-) -> Result<(), Refused> {
-    let surface = Surface::new(buffer, width, height);
-    for panel in panels {
-        panel.draw(&surface, fineness)?;
-    }
-    legend.draw(&surface, left, top)?;
-    surface.finish()
 }
 
 /// The names of the series of a figure, in the order in which they appear.
@@ -154,9 +131,6 @@ fn entries(plots: &[Plot], names: &[&str]) -> Vec<(Swatch, String)> {
     for series in plots.iter().flat_map(|p| &p.series) {
         add(Swatch::Series(look(series, names)), &series.name);
     }
-    for guide in plots.iter().flat_map(|p| &p.guides) {
-        add(Swatch::Guide, &guide.name);
-    }
     if plots.iter().any(|p| p.frontier) {
         add(Swatch::Frontier, "frontier: no point is lower in both");
     }
@@ -166,8 +140,7 @@ fn entries(plots: &[Plot], names: &[&str]) -> Vec<(Swatch, String)> {
 /// The plots in their places, row by row, their areas aligned.
 fn panels<'a>(figure: &'a Figure, names: &[&str]) -> Vec<Panel<'a>> {
     let plots = &figure.plots;
-    let columns = figure.per_row.clamp(1, 4).min(plots.len());
-    let rows = plots.len().div_ceil(columns);
+    let columns = figure.per_row.clamp(1, 4).min(plots.len().max(1));
     let same = |of: fn(&Plot) -> String| {
         let first = plots.first().map(of);
         plots.iter().all(|p| Some(of(p)) == first)
@@ -179,27 +152,23 @@ fn panels<'a>(figure: &'a Figure, names: &[&str]) -> Vec<Panel<'a>> {
         y_label: !same_y || index.is_multiple_of(columns),
         minor_grid: columns == 1,
     };
-    let cell_width = (WIDTH - GUTTER) / as_f64(columns);
     let area_height = [330.0, 220.0, 170.0, 140.0].get(columns - 1).copied().unwrap_or(140.0);
-    let rough = (cell_width - 90.0).max(60.0);
-    let axes: Vec<_> = plots.iter().map(|p| Axes::new(p, rough, area_height)).collect();
-    let widest = axes.iter().map(Axes::y_label_width).fold(0.0, f64::max);
-    let titled = plots.iter().any(|p| !p.title.is_empty());
+    let rough = ((WIDTH - GUTTER) / columns as f64 - 90.0).max(60.0);
+    let axes: Vec<_> = plots.iter().map(|p| axes(p, rough, area_height)).collect();
+    let widest = axes.iter().map(|[_, y]| label_width(y)).fold(0.0, f64::max);
+    let above = if plots.iter().any(|p| !p.title.is_empty()) { 30.0 } else { 12.0 };
     let row_height = |row: usize| {
-        let last = (row * columns..plots.len()).take(columns).any(|i| shown(i).x_label);
-        let margins = Margins::new(widest, titled, Shown { x_label: last, ..shown(0) });
-        margins.top + area_height + margins.bottom
+        let labelled = (row * columns..plots.len()).take(columns).any(|i| shown(i).x_label);
+        above + area_height + if labelled { 42.0 } else { 26.0 }
     };
-    let tops: Vec<f64> = (0..rows).map(|row| (0..row).map(row_height).sum()).collect();
-    let place = |(index, (plot, axes)): (usize, (&'a Plot, Axes))| {
-        // Every column keeps room for the label of the first, so that all areas are equally wide.
-        let margins = Margins::new(widest, titled, Shown { y_label: !same_y, ..shown(index) });
-        let lead = if same_y { 20.0 } else { 0.0 };
-        let width = (WIDTH - GUTTER - lead) / as_f64(columns);
+    // Every column keeps room for the label of the first, so that all areas are equally wide.
+    let (lead, label) = if same_y { (20.0, 0.0) } else { (0.0, 20.0) };
+    let (width, before) = ((WIDTH - GUTTER - lead) / columns as f64, 12.0 + widest + label);
+    let place = |(index, (plot, axes)): (usize, (&'a Plot, [Span; 2]))| {
         let area = Rect {
-            left: lead + as_f64(index % columns) * width + margins.left,
-            top: tops.get(index / columns).copied().unwrap_or(0.0) + margins.top,
-            width: width - margins.left - margins.right,
+            left: lead + (index % columns) as f64 * width + before,
+            top: (0..index / columns).map(row_height).sum::<f64>() + above,
+            width: width - before - 16.0,
             height: area_height,
         };
         Panel::new(plot, axes, area, shown(index), |series| look(series, names))
@@ -213,29 +182,15 @@ fn wrapped(figure: &Figure, body: &str, height: f64) -> String {
     let titles: Vec<_> =
         figure.plots.iter().map(|p| p.title.as_str()).filter(|t| !t.is_empty()).collect();
     let title = if titles.is_empty() { stem.clone() } else { titles.join("; ") };
-    let mut svg = String::with_capacity(body.len() + 600);
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        svg,
+    format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" width=\"{WIDTH:.0}\" \
          height=\"{height:.0}\" viewBox=\"0 0 {:.0} {:.0}\" role=\"img\" \
          aria-labelledby=\"{stem}-title {stem}-desc\" \
-         font-family=\"Helvetica,Arial,sans-serif\" stroke-linejoin=\"round\">",
+         font-family=\"Helvetica,Arial,sans-serif\" stroke-linejoin=\"round\">\n\
+         <title id=\"{stem}-title\">{}</title>\n<desc id=\"{stem}-desc\">{}</desc>\n{body}</svg>\n",
         WIDTH * UNITS,
         height * UNITS,
-    );
-    let _ = writeln!(svg, "<title id=\"{stem}-title\">{}</title>", escaped(&title));
-    let caption = escaped(&figure.caption.to_plain());
-    let _ = writeln!(svg, "<desc id=\"{stem}-desc\">{caption}</desc>");
-    svg.push_str(body);
-    svg.push_str("</svg>\n");
-    svg
-}
-
-fn escaped(text: &str) -> String {
-    printable(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
-}
-
-fn as_f64(count: usize) -> f64 {
-    u32::try_from(count).map_or(f64::from(u32::MAX), f64::from)
+        escaped(&title),
+        escaped(&figure.caption.to_plain()),
+    )
 }

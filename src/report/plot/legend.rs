@@ -1,12 +1,9 @@
 //! The legend of a figure: rows of entries under every plot, so that it never covers data.
 
-use plotters::style::text_anchor::HPos;
-
+use super::canvas::{Canvas, Lettering};
 use super::frame::Rect;
-use super::ink::{Ink, Marker};
 use super::lettering;
-use super::series::Look;
-use super::surface::{Lettering, Refused, Surface};
+use super::series::{FRONTIER, Look};
 
 const SIZE: f64 = 12.0;
 const ROW: f64 = 20.0;
@@ -17,7 +14,6 @@ const GAP: f64 = 22.0;
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Swatch {
     Series(Look),
-    Guide,
     Frontier,
 }
 
@@ -54,28 +50,18 @@ impl Legend {
         (!self.entries.is_empty()).then_some(Rect { left, top, width, height })
     }
 
-    /// Draws it there.
-    pub(super) fn draw(&self, on: &Surface<'_>, left: f64, top: f64) -> Result<(), Refused> {
+    pub(super) fn draw(&self, on: &mut Canvas, left: f64, top: f64) {
         for (swatch, name, (x, y)) in &self.entries {
             let (x, y) = (left + x, top + y);
             let line = [(x, y), (x + SWATCH - 8.0, y)];
             match swatch {
-                Swatch::Series(look) => {
-                    if look.has_line() {
-                        on.line(&line, look.ink(), look.width(), look.opacity())?;
-                    }
-                    if look.has_markers() {
-                        let middle = (x + (SWATCH - 8.0) / 2.0, y);
-                        let shape = Marker::of(look.index);
-                        let ink = Ink::Solid(look.index);
-                        on.marker(shape, middle, look.radius(), ink, look.opacity())?;
-                    }
-                }
-                Swatch::Guide => on.line(&line, Ink::Guide, 1.1, 0.8)?,
-                Swatch::Frontier => on.line(&line, Ink::Text(0.55), 1.3, 1.0)?,
+                Swatch::Series(look) => match look.ink() {
+                    Some(ink) => on.line(&line, ink, look.width()),
+                    None => on.marker(look.index, (x + (SWATCH - 8.0) / 2.0, y), look.radius()),
+                },
+                Swatch::Frontier => on.line(&line, FRONTIER, 1.3),
             }
-            on.text(name, (x + SWATCH, y), Lettering::new(SIZE, HPos::Left))?;
+            on.text(name, (x + SWATCH, y), Lettering::new(SIZE, "start"));
         }
-        Ok(())
     }
 }
