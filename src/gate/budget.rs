@@ -21,7 +21,7 @@ pub struct Gate {
     pub precision: Precision,
     /// Over which points; absent means the region that the fit itself was made on.
     pub domain: Option<Domain>,
-    /// Largest value accepted: finite, > 0, in the metric's unit.
+    /// Largest value accepted, of [`Metric::Chi2P`] the smallest: finite, > 0, in the metric's unit.
     pub limit: f64,
     /// The number measured when the limit was set, where it is recorded.
     pub measured: Option<f64>,
@@ -34,7 +34,8 @@ pub struct Gate {
     pub why: String,
 }
 
-/// What a gate measures of the errors, form minus target.
+/// What a gate measures of the errors, form minus target; of a form that draws from a distribution, of
+/// its draws: `mean_z`, `variance_ratio` and `chi2_p`, and nothing else.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Metric {
@@ -60,11 +61,20 @@ pub enum Metric {
     /// Largest distance, in units in the last place of f32, between a constant in the shipped file
     /// and the fitted one.
     Drift,
+    /// Mean of the draws less that of the distribution, in its standard errors: the largest magnitude at
+    /// any point. That of fair draws is below 4 at most and above it at 1 point of 16 000.
+    MeanZ,
+    /// Variance of the draws over that of the distribution, or its inverse: the largest at any point,
+    /// 1 or above.
+    VarianceRatio,
+    /// Probability that fair draws are as far from their probabilities at any point (χ², corrected for the
+    /// number of points by Šidák's rule): the gate fails below its limit, and above it for no other metric.
+    Chi2P,
 }
 
 impl Metric {
     /// Every metric, in the order of the documentation.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::MaxAbs,
         Self::Rms,
         Self::Bias,
@@ -75,6 +85,9 @@ impl Metric {
         Self::RelL2,
         Self::Flip,
         Self::Drift,
+        Self::MeanZ,
+        Self::VarianceRatio,
+        Self::Chi2P,
     ];
 
     /// Name in the file.
@@ -90,7 +103,21 @@ impl Metric {
             Self::RelL2 => "rel_l2",
             Self::Flip => "flip",
             Self::Drift => "drift",
+            Self::MeanZ => "mean_z",
+            Self::VarianceRatio => "variance_ratio",
+            Self::Chi2P => "chi2_p",
         }
+    }
+
+    /// Whether it is measured of draws from a distribution.
+    pub(super) fn of_draws(self) -> bool {
+        matches!(self, Self::MeanZ | Self::VarianceRatio | Self::Chi2P)
+    }
+
+    /// Whether `value` is worse than `than`: larger, of a probability smaller. What is not a number is
+    /// worse than anything.
+    pub(super) fn worse(self, value: f64, than: f64) -> bool {
+        value.is_nan() || if self == Self::Chi2P { value < than } else { value > than }
     }
 }
 

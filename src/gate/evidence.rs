@@ -118,6 +118,7 @@ impl<'r> Evidence<'r> {
                 Metric::Drift => GroundTruth::none(),
                 _ => self.target(gate, &standing, &label, &candidate)?,
             };
+            gate.fits(&target)?;
             let label = (!label.is_empty()).then_some(label);
             instances.push(Instance { label, candidate, target, levers });
         }

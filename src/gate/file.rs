@@ -138,18 +138,19 @@ impl Reading<'_> {
             let message = format!("expected a finite number > 0, got {limit}");
             return Err(self.wrong("limit", &raw.limit, message));
         }
-        if let Some(measured) = &raw.measured {
-            let value = *measured.get_ref();
-            if !value.is_finite() || value < 0.0 || value > limit {
-                let message = format!("expected a number from 0 to the limit {limit}, got {value}");
-                return Err(self.wrong("measured", measured, message));
-            }
-        }
-        if let Some(warn) = &raw.warn {
-            let value = *warn.get_ref();
-            if !value.is_finite() || value < 0.0 || value > limit {
-                let message = format!("expected a number from 0 to the limit {limit}, got {value}");
-                return Err(self.wrong("warn", warn, message));
+        for (key, given) in [("measured", &raw.measured), ("warn", &raw.warn)] {
+            let Some(given) = given else { continue };
+            let value = *given.get_ref();
+            if !value.is_finite() || value < 0.0 || metric.worse(value, limit) {
+                let range = match metric {
+                    Metric::Chi2P => format!("from the limit {limit} to 1"),
+                    _ => format!("from 0 to the limit {limit}"),
+                };
+                return Err(self.wrong(
+                    key,
+                    given,
+                    format!("expected a number {range}, got {value}"),
+                ));
             }
         }
         if let (Some(domain), Metric::Drift) = (&raw.domain, metric) {
@@ -218,7 +219,10 @@ impl Reading<'_> {
         let found = known.iter().find(|(known, _)| known.as_ref() == name.get_ref());
         found.map(|(_, value)| *value).ok_or_else(|| {
             let names: Vec<&str> = known.iter().map(|(name, _)| name.as_ref()).collect();
-            let message = format!("expected {}, got `{}`", names.join(" | "), name.get_ref());
+            let mut message = format!("expected {}, got `{}`", names.join(" | "), name.get_ref());
+            if key == "metric" {
+                message += "; the limit is the largest value that passes, of chi2_p the smallest";
+            }
             self.wrong(key, name, message)
         })
     }

@@ -136,7 +136,7 @@ fn prove_scene(
     found: &mut Proofs,
 ) -> Result<(), GateError> {
     let subject = evidence.scene(gate)?;
-    if beyond(subject.reached(gate, device.value())?.value, gate.limit) {
+    if gate.metric.worse(subject.reached(gate, device.value())?.value, gate.limit) {
         found.defects.push(format!("{} fails as it stands: nothing to show", name(gate)));
         return Ok(());
     }
@@ -147,7 +147,7 @@ fn prove_scene(
         for step in [size, -size] {
             for constant in &constants {
                 let value = subject.perturbed(gate, constant, step, device.value())?.value;
-                if beyond(value, gate.limit) {
+                if gate.metric.worse(value, gate.limit) {
                     return Ok(Some((constant.clone(), step, value)));
                 }
             }
@@ -209,15 +209,11 @@ fn fails(
                 vec![reached(None, candidate, target, gate.metric, gate.precision, device)?.value]
             }
         };
-        if values.iter().any(|value| beyond(*value, gate.limit)) {
+        if values.iter().any(|value| gate.metric.worse(*value, gate.limit)) {
             return Ok(true);
         }
     }
     Ok(false)
-}
-
-fn beyond(value: f64, limit: f64) -> bool {
-    value.is_nan() || value > limit
 }
 
 /// The first step at which the gate fails, and the value there.
@@ -237,7 +233,7 @@ fn trip(
                     reached(None, &form, &target, gate.metric, gate.precision, device)?.value
                 }
             };
-            if beyond(value, gate.limit) {
+            if gate.metric.worse(value, gate.limit) {
                 return Ok(Some((step, value)));
             }
         }

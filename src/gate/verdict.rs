@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{Gate, Precision};
+use super::{Gate, Metric, Precision};
 use crate::document::{Verdict, number};
 
 /// A number of a fit, and where it was reached.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reached {
-    /// The metric's value, in the target's unit (`max_rel`: 1, `drift`: ulp of f32).
+    /// The metric's value, in the target's unit (`max_rel` and what is measured of draws: 1, `drift`: ulp
+    /// of f32).
     pub value: f64,
     /// Where an extreme is reached: input column to value.
     pub at: BTreeMap<String, f64>,
@@ -55,9 +56,9 @@ impl Judgement {
         let value = measured.value;
         let (verdict, reason) = if value.is_nan() {
             (Verdict::Fail, Some("the error is not a number".to_owned()))
-        } else if value > gate.limit {
+        } else if gate.metric.worse(value, gate.limit) {
             (Verdict::Fail, None)
-        } else if gate.warn.is_some_and(|warn| value >= warn) {
+        } else if gate.warn.is_some_and(|warn| !gate.metric.worse(warn, value)) {
             (Verdict::Warn, None)
         } else if let Some(stale) = stale(&gate, value) {
             (Verdict::Warn, Some(stale))
@@ -79,7 +80,11 @@ impl Judgement {
 
     /// Part of the limit that is left, 1; negative beyond it.
     pub fn margin(&self) -> Option<f64> {
-        self.measured.as_ref().map(|measured| 1.0 - measured.value / self.gate.limit)
+        let ratio = |measured: &Reached| match self.gate.metric {
+            Metric::Chi2P => self.gate.limit / measured.value,
+            _ => measured.value / self.gate.limit,
+        };
+        self.measured.as_ref().map(|measured| 1.0 - ratio(measured))
     }
 
     /// One line: `max_abs 0.05098 of 0.05105 (0.1 % left) at x = 3.56`.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 #[cfg(doc)]
 use crate::effect::Region;
-use crate::effect::{Candidate, NoValue, Reference, Yardstick};
+use crate::effect::{Candidate, Distribution, NoValue, Reference, Yardstick};
 use crate::fit::outcome::Residuals;
 use crate::form::{Form, Input};
 use crate::gpu::{Device, DeviceKernel};
@@ -29,6 +29,9 @@ pub struct GroundTruth {
     pub groups: Option<(&'static str, Vec<f64>)>,
     /// The error by which forms are compared here.
     pub yardstick: Yardstick,
+    /// What draws are held against in place of values: one per run of rows of the same length, whose
+    /// means are the values. Empty where values are judged.
+    pub distributions: Vec<Distribution>,
 }
 
 /// Points of a reference with its values, for forms that may take more than its arguments.
@@ -44,6 +47,8 @@ pub struct Judged {
     pub by: Option<&'static str>,
     /// The error by which forms are compared here.
     pub yardstick: Yardstick,
+    /// The distribution at each point, of a reference that returns distributions; else empty.
+    pub distributions: Vec<Distribution>,
 }
 
 impl Judged {
@@ -68,20 +73,25 @@ impl Judged {
             source,
         };
         let values = reference.over(&columns).map_err(failed)?;
+        let distributions = reference.distributions(&columns).map_err(failed)?;
         let outputs = reference.outputs().len();
-        Ok(Self { points, values, outputs, by, yardstick })
+        Ok(Self { points, values, outputs, by, yardstick, distributions })
     }
 
-    /// Whether the points have every input of `form`.
+    /// Whether the points have every input of `form`, but for what numbers its draws.
     pub fn serves(&self, form: &Form) -> bool {
-        form.input_columns().iter().all(|input| self.points.column(input).is_some())
+        let there = |input: &String| self.points.column(input).is_some();
+        self.counter(form).is_some() || form.input_columns().iter().all(there)
     }
 
-    /// The points as `form` takes them.
+    /// The points as `form` takes them; of a form that draws, its draws at each of them.
     ///
     /// # Errors
     /// If a column is missing.
     pub fn target(&self, form: &Form) -> Result<GroundTruth, ValidateError> {
+        if let Some(counter) = self.counter(form) {
+            return self.drawn(form, counter);
+        }
         let arguments = form.input_columns();
         let inputs = arguments
             .iter()
@@ -92,7 +102,8 @@ impl Judged {
             Some(by) => Some((by, column(&self.points, by)?.to_vec())),
         };
         let (values, outputs, yardstick) = (self.values.clone(), self.outputs, self.yardstick);
-        Ok(GroundTruth { arguments, inputs, values, outputs, groups, yardstick })
+        let distributions = Vec::new();
+        Ok(GroundTruth { arguments, inputs, values, outputs, groups, yardstick, distributions })
     }
 }
 
@@ -120,14 +131,14 @@ impl GroundTruth {
             .map(|argument| column(table, argument).map(<[f64]>::to_vec))
             .collect::<Result<Vec<_>, _>>()?;
         let values = column(table, "value")?.to_vec();
-        let (outputs, yardstick) = (1, Yardstick::MaxAbs);
-        Ok(Self { arguments, inputs, values, outputs, groups: None, yardstick })
+        Ok(Self { arguments, inputs, values, ..Self::none() })
     }
 
     /// The points of all in one group, for targets of the same arguments; none of none.
     pub fn all(targets: impl IntoIterator<Item = Self>) -> Option<Self> {
         targets.into_iter().reduce(|mut all, more| {
             all.groups = None;
+            all.distributions.clear();
             let rows = [&all, &more].map(|target| target.values.len() / target.outputs.max(1));
             let parts = all.values.chunks(rows[0].max(1)).zip(more.values.chunks(rows[1].max(1)));
             all.values = parts.flat_map(|(own, added)| own.iter().chain(added).copied()).collect();
@@ -163,7 +174,6 @@ impl GroundTruth {
         RelativeL2 { value, at: at.into_iter().collect() }
     }
 
-    /// Residuals of `values` against the target.
     /// No points.
     pub(crate) fn none() -> Self {
         Self {
@@ -173,15 +183,17 @@ impl GroundTruth {
             outputs: 1,
             groups: None,
             yardstick: Yardstick::MaxAbs,
+            distributions: Vec::new(),
         }
     }
 
-    fn residuals(&self, values: &[f64]) -> Residuals {
+    /// Residuals of `values` against the target.
+    pub fn residuals(&self, values: &[f64]) -> Residuals {
         Residuals::measure(&self.inputs, &self.arguments, values, &self.values)
     }
 }
 
-fn column<'t>(table: &'t Table, name: &str) -> Result<&'t [f64], ValidateError> {
+pub(super) fn column<'t>(table: &'t Table, name: &str) -> Result<&'t [f64], ValidateError> {
     table.column(name).map(|column| column.values.as_slice()).ok_or_else(|| {
         ValidateError::MissingColumn {
             table: table.origin.clone(),
@@ -244,81 +256,24 @@ pub fn accuracy(
     target: &GroundTruth,
     kernel: &Measured<DeviceKernel<'_>>,
 ) -> Result<Accuracy, ValidateError> {
+    let judged = |values: &[f64]| {
+        let (residuals, norm) = (target.residuals(values), target.relative_l2(values));
+        let headline = headline(target.yardstick, &residuals, norm.value);
+        (residuals, norm, headline)
+    };
     let (device, headline_device) = match kernel {
         Measured::NotMeasured(reason) => {
             (Measured::NotMeasured(reason.clone()), Measured::NotMeasured(reason.clone()))
         }
         Measured::Value(kernel) => {
-            let values = widened(&kernel_values(kernel, target)?);
-            let residuals = target.residuals(&values);
-            let norm = target.relative_l2(&values).value;
-            let headline = headline(target.yardstick, &residuals, norm);
+            let (residuals, _, headline) = judged(&widened(&kernel_values(kernel, target)?));
             (Measured::Value(residuals), Measured::Value(headline))
         }
     };
-    let values = widened(&values_f32(candidate, target)?);
-    let exact = values_f64(candidate, target)?;
-    let f64 = target.residuals(&exact);
-    Ok(Accuracy {
-        headline_f64: headline(target.yardstick, &f64, target.relative_l2(&exact).value),
-        f64,
-        f32: target.residuals(&values),
-        device,
-        headline_device,
-        relative_l2: target.relative_l2(&values),
-        yardstick: target.yardstick,
-    })
-}
-
-/// Residuals of the f64 constants in f64.
-///
-/// # Errors
-/// If the form cannot be evaluated.
-pub fn residuals_f64(
-    candidate: &Candidate,
-    target: &GroundTruth,
-) -> Result<Residuals, ValidateError> {
-    Ok(target.residuals(&values_f64(candidate, target)?))
-}
-
-/// Residuals of the candidate constants in f32.
-///
-/// # Errors
-/// If the form cannot be evaluated.
-pub fn residuals_f32(
-    candidate: &Candidate,
-    target: &GroundTruth,
-) -> Result<Residuals, ValidateError> {
-    Ok(target.residuals(&widened(&values_f32(candidate, target)?)))
-}
-
-/// Residuals of the candidate constants on the device.
-///
-/// # Errors
-/// If the device fails.
-pub fn residuals_device(
-    candidate: &Candidate,
-    target: &GroundTruth,
-    device: &Device,
-) -> Result<Residuals, ValidateError> {
-    Ok(target.residuals(&widened(&device_values(candidate, target, device)?)))
-}
-
-/// Relative L2 error in one arithmetic: the worst group of points.
-///
-/// # Errors
-/// If the form cannot be evaluated, or the device fails.
-pub fn relative_l2(
-    candidate: &Candidate,
-    target: &GroundTruth,
-    precision: Arithmetic<'_>,
-) -> Result<RelativeL2, ValidateError> {
-    let values = match precision {
-        Arithmetic::F64 => values_f64(candidate, target)?,
-        Arithmetic::F32 => widened(&values_f32(candidate, target)?),
-        Arithmetic::Device(device) => widened(&device_values(candidate, target, device)?),
-    };
-    Ok(target.relative_l2(&values))
+    let (f64, _, headline_f64) = judged(&values(candidate, target, Arithmetic::F64)?);
+    let (f32, relative_l2, _) = judged(&values(candidate, target, Arithmetic::F32)?);
+    let yardstick = target.yardstick;
+    Ok(Accuracy { f64, f32, device, relative_l2, yardstick, headline_device, headline_f64 })
 }
 
 /// In which arithmetic a form is evaluated.
@@ -332,12 +287,29 @@ pub enum Arithmetic<'d> {
     Device(&'d Device),
 }
 
-/// Values in f32 at the target's points.
-fn values_f64(candidate: &Candidate, target: &GroundTruth) -> Result<Vec<f64>, ValidateError> {
-    let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
-    joined(candidate.form.origin(), target, candidate.form.eval_f64(&candidate.constants, &inputs)?)
+/// Values at the target's points in one arithmetic.
+///
+/// # Errors
+/// If the form cannot be evaluated, or the device fails.
+pub fn values(
+    candidate: &Candidate,
+    target: &GroundTruth,
+    arithmetic: Arithmetic<'_>,
+) -> Result<Vec<f64>, ValidateError> {
+    let Candidate { form, constants, constants_f32, .. } = candidate;
+    match arithmetic {
+        Arithmetic::F64 => {
+            let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
+            joined(form.origin(), target, form.eval_f64(constants, &inputs)?)
+        }
+        Arithmetic::F32 => Ok(widened(&values_f32(candidate, target)?)),
+        Arithmetic::Device(device) => {
+            Ok(widened(&kernel_values(&device.compile(form, constants_f32)?, target)?))
+        }
+    }
 }
 
+/// Values in f32 at the target's points.
 pub(crate) fn values_f32(
     candidate: &Candidate,
     target: &GroundTruth,
@@ -345,15 +317,6 @@ pub(crate) fn values_f32(
     let Candidate { form, constants_f32, .. } = candidate;
     let values = form.eval_f32_inputs(constants_f32, &as_inputs(&target.inputs))?;
     joined(form.origin(), target, values)
-}
-
-/// Values on the device at the target's points.
-pub(crate) fn device_values(
-    candidate: &Candidate,
-    target: &GroundTruth,
-    device: &Device,
-) -> Result<Vec<f32>, ValidateError> {
-    kernel_values(&device.compile(&candidate.form, &candidate.constants_f32)?, target)
 }
 
 /// Values of a compiled form at the target's points.
@@ -384,6 +347,6 @@ fn as_inputs(inputs: &[Vec<f64>]) -> Vec<Input<'_>> {
     inputs.iter().map(Input::from).collect()
 }
 
-fn widened(values: &[f32]) -> Vec<f64> {
+pub(super) fn widened(values: &[f32]) -> Vec<f64> {
     values.iter().map(|value| f64::from(*value)).collect()
 }

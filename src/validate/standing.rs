@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::effect::Yardstick;
 use crate::numeric::statistics::largest;
 use crate::validate::cost::{Cost, Costs};
+use crate::validate::draws::DrawsStudy;
 use crate::validate::study::Study;
 
 /// A form with its error and its cost.
@@ -14,7 +15,8 @@ use crate::validate::study::Study;
 pub struct Standing<'a> {
     /// The fit.
     pub fit: &'a str,
-    /// Error in f32 by which forms are compared, by region (or over all members of a family).
+    /// Error in f32 by which forms are compared, by region (or over all members of a family); of a form
+    /// that draws the mean off that of its distribution, in standard errors.
     pub error: Vec<(String, f64)>,
     /// Whether no fit to the same reference errs less at no more cost.
     pub frontier: bool,
@@ -66,7 +68,10 @@ fn errors(study: &Study, fit: &str) -> Vec<(String, f64)> {
             };
             (kind, accuracy.headline())
         };
-        return study.regions.iter().map(region).collect();
+        let drawn = |(name, draws): &(String, DrawsStudy)| {
+            (format!("{name}, |mean z|"), draws.f32.worst_mean_z)
+        };
+        return study.regions.iter().map(region).chain(study.draws.iter().map(drawn)).collect();
     }
     let forms = study.families.iter().flat_map(|family| &family.forms);
     forms
