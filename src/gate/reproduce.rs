@@ -8,8 +8,7 @@ use serde::Serialize;
 
 use super::{Verdict, committed};
 use crate::fit::outcome::Outcome;
-use crate::fit::run::Context;
-use crate::fit::{FitError, FitResult, Spec, run_spec};
+use crate::fit::{Context, FitError, FitResult, Spec, run_spec};
 
 /// How far an f64 constant may be from the committed one, relative: another machine's libm moves
 /// the last digits of an optimum, and f32 constants do not move with them.
