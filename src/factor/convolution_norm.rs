@@ -70,7 +70,7 @@ impl ConvolutionNorm {
     ///
     /// # Errors
     /// [`LowRankError::Setting`] without environments or orientations;
-    /// [`LowRankError::Environment`] for texels that are missing, negative or not finite, or if no
+    /// [`LowRankError::Unusable`] for texels that are missing, negative or not finite, or if no
     /// patch has any light.
     pub fn from_environments(
         environments: &[Environment],
@@ -105,8 +105,8 @@ impl ConvolutionNorm {
             };
             let own = at(0, 0);
             if !(own.is_finite() && own > 0.0) {
-                return Err(LowRankError::Environment {
-                    origin: environment.origin.clone(),
+                return Err(LowRankError::Unusable {
+                    origin: format!("environment {}", environment.origin),
                     what: "dark around every normal that was drawn".into(),
                 });
             }
@@ -177,7 +177,7 @@ impl ConvolutionNorm {
     /// ‖S − Ŝ‖_R/‖S‖_R per channel; 0 for a channel that is 0.
     ///
     /// # Errors
-    /// [`LowRankError::Mismatch`] if the table has another size than the norm or other channels
+    /// [`LowRankError::Unusable`] if the table has another size than the norm or other channels
     /// than the factors.
     pub fn relative_errors(
         &self,
@@ -255,8 +255,8 @@ fn power_spectrum(
 /// direction. Independent of [`ConvolutionNorm`]: no shift, no autocorrelation.
 ///
 /// # Errors
-/// [`LowRankError::Environment`] for texels that are missing, negative or not finite;
-/// [`LowRankError::Mismatch`] if the factors have other channels or axes.
+/// [`LowRankError::Unusable`] for texels that are missing, negative or not finite, and if the factors
+/// have other channels or axes.
 pub fn seen_error(
     table: &Grid,
     factors: &LowRank,

@@ -52,7 +52,7 @@ impl Decomposition {
     /// number of threads. Repeated values and signs as [`super`] says.
     ///
     /// # Errors
-    /// As [`Grid::check_plane`]; [`LowRankError::NotConverged`].
+    /// As [`Grid::check_plane`]; [`LowRankError::Unusable`] if singular values do not converge.
     pub fn of(table: &Grid) -> Result<Self, LowRankError> {
         Self::of_aligned(table, Alignment::identity())
     }

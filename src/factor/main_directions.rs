@@ -19,8 +19,7 @@ use faer::Mat;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::matrix::{norm_squared, times};
-use super::resampling::bicubic;
+use super::alignment::bicubic;
 use super::{Alignment, LowRankError};
 use crate::table::{Axis, Edge, Grid, GridChannel, centres};
 
@@ -221,18 +220,18 @@ fn beyond_rank_one(plane: &Grid, channel: &GridChannel, [x, y]: [f64; 2]) -> f64
     let table = Mat::from_fn(ys.len(), xs.len(), |i, j| {
         rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0)
     });
-    let whole = norm_squared(table.as_ref());
-    let mut right = Mat::from_fn(xs.len(), 1, |_, _| 1.0);
+    let whole = table.squared_norm_l2();
+    let mut right = Mat::<f64>::from_fn(xs.len(), 1, |_, _| 1.0);
     let mut first = 0.0;
     for _ in 0..POWER_STEPS {
-        let length = norm_squared(right.as_ref()).sqrt();
+        let length = right.squared_norm_l2().sqrt();
         if length == 0.0 || whole == 0.0 {
             return 1.0;
         }
         right *= faer::Scale(1.0 / length);
-        let left = times(table.as_ref(), right.as_ref());
-        first = norm_squared(left.as_ref());
-        right = times(table.transpose(), left.as_ref());
+        let left = &table * &right;
+        first = left.squared_norm_l2();
+        right = table.transpose() * left.as_ref();
     }
     1.0 - first / whole
 }

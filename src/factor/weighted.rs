@@ -26,12 +26,12 @@ impl Weight {
     /// Any weight.
     ///
     /// # Errors
-    /// [`LowRankError::Mismatch`] unless there are `x.count · y.count` values;
+    /// [`LowRankError::Unusable`] unless there are `x.count · y.count` values;
     /// [`LowRankError::Setting`] if one is negative or not finite.
     pub fn new(x: &Axis, y: &Axis, values: Vec<f64>) -> Result<Self, LowRankError> {
         let expected = x.count.saturating_mul(y.count);
         if values.len() != expected {
-            return Err(LowRankError::Mismatch {
+            return Err(LowRankError::Unusable {
                 origin: "weight".into(),
                 what: format!("{} values, expected {expected}", values.len()),
             });
@@ -79,7 +79,7 @@ impl Weight {
     /// √(Σ W (S − Ŝ)²/Σ W S²) per channel; 0 for a channel that is 0 under the weight.
     ///
     /// # Errors
-    /// [`LowRankError::Mismatch`] if table, weight and factors have different sizes or channels.
+    /// [`LowRankError::Unusable`] if table, weight and factors have different sizes or channels.
     pub fn relative_errors(
         &self,
         table: &Grid,
@@ -98,8 +98,8 @@ impl Weight {
 /// decomposition: never worse than it under the weight.
 ///
 /// # Errors
-/// As [`Grid::check_plane`]; [`LowRankError::Rank`]; [`LowRankError::Mismatch`] if the weight has another
-/// size than the table; [`LowRankError::NotConverged`].
+/// As [`Grid::check_plane`]; [`LowRankError::Rank`]; [`LowRankError::Unusable`] if the weight has another
+/// size than the table, or singular values do not converge.
 pub fn weighted(
     table: &Grid,
     alignment: Alignment,
