@@ -8,11 +8,9 @@ use super::Ending;
 use super::context::Context;
 use crate::report::pages::{cost_section, draws_section};
 use crate::run::{Studied, write_costs};
-use crate::validate::cheapest::{Cheapest, cheapest};
 use crate::validate::cost::Costs;
 use crate::validate::draws::DrawsStudy;
-use crate::validate::goals::{GoalVerdict, goals};
-use crate::validate::standing::{Standing, standings};
+use crate::validate::standing::{Cheapest, GoalVerdict, Standing, cheapest, goals, standings};
 use crate::validate::study::CandidateStudy;
 
 const MORE: &str = "\

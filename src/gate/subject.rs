@@ -174,7 +174,7 @@ fn figure_of_draws(
         }
         _ => (draws.chi_squared_p, draws.worst_point(|of| -of.p)),
     };
-    (value, target.at(point))
+    (value, target.place(point))
 }
 
 /// The worst of several; a value that is not a number is worse than any.

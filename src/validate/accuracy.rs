@@ -39,16 +39,10 @@ pub struct GroundTruth {
 pub struct Judged {
     /// Columns for every argument of the reference, and further ones.
     pub points: Table,
-    /// The true values; of several outputs all rows of the first before those of the next.
-    pub values: Vec<f64>,
-    /// How many outputs the reference has.
-    pub outputs: usize,
     /// The argument that parts the points into groups.
     pub by: Option<&'static str>,
-    /// The error by which forms are compared here.
-    pub yardstick: Yardstick,
-    /// The distribution at each point, of a reference that returns distributions; else empty.
-    pub distributions: Vec<Distribution>,
+    /// The true values and distributions, without inputs of a form.
+    pub(super) truth: GroundTruth,
 }
 
 impl Judged {
@@ -67,15 +61,18 @@ impl Judged {
             .iter()
             .map(|argument| column(&points, argument.name))
             .collect::<Result<Vec<_>, _>>()?;
-        let failed = |NoValue { row, source }| ValidateError::Reference {
-            reference: reference.name,
-            row: row + 1,
-            source,
+        let failed = |NoValue { row, source }| ValidateError::Unusable {
+            origin: format!("reference `{}`, row {}", reference.name, row + 1),
+            what: source.to_string(),
         };
-        let values = reference.over(&columns).map_err(failed)?;
-        let distributions = reference.distributions(&columns).map_err(failed)?;
-        let outputs = reference.outputs().len();
-        Ok(Self { points, values, outputs, by, yardstick, distributions })
+        let truth = GroundTruth {
+            values: reference.over(&columns).map_err(failed)?,
+            distributions: reference.distributions(&columns).map_err(failed)?,
+            outputs: reference.outputs().len(),
+            yardstick,
+            ..GroundTruth::none()
+        };
+        Ok(Self { points, by, truth })
     }
 
     /// Whether the points have every input of `form`, but for what numbers its draws.
@@ -92,18 +89,12 @@ impl Judged {
         if let Some(counter) = self.counter(form) {
             return self.drawn(form, counter);
         }
-        let arguments = form.input_columns();
-        let inputs = arguments
-            .iter()
-            .map(|argument| column(&self.points, argument).map(<[f64]>::to_vec))
-            .collect::<Result<Vec<_>, _>>()?;
         let groups = match self.by {
             None => None,
             Some(by) => Some((by, column(&self.points, by)?.to_vec())),
         };
-        let (values, outputs, yardstick) = (self.values.clone(), self.outputs, self.yardstick);
-        let distributions = Vec::new();
-        Ok(GroundTruth { arguments, inputs, values, outputs, groups, yardstick, distributions })
+        let truth = GroundTruth { groups, distributions: Vec::new(), ..self.truth.clone() };
+        truth.at(&self.points, form)
     }
 }
 
@@ -125,13 +116,16 @@ impl GroundTruth {
     /// # Errors
     /// If a column is missing.
     pub fn of_table(table: &Table, form: &Form) -> Result<Self, ValidateError> {
-        let arguments = form.input_columns();
-        let inputs = arguments
-            .iter()
-            .map(|argument| column(table, argument).map(<[f64]>::to_vec))
-            .collect::<Result<Vec<_>, _>>()?;
         let values = column(table, "value")?.to_vec();
-        Ok(Self { arguments, inputs, values, ..Self::none() })
+        Self { values, ..Self::none() }.at(table, form)
+    }
+
+    /// The same at the columns of `table` that `form` takes.
+    fn at(mut self, table: &Table, form: &Form) -> Result<Self, ValidateError> {
+        self.arguments = form.input_columns();
+        let inputs = self.arguments.iter().map(|argument| Ok(column(table, argument)?.to_vec()));
+        self.inputs = inputs.collect::<Result<_, ValidateError>>()?;
+        Ok(self)
     }
 
     /// The points of all in one group, for targets of the same arguments; none of none.
@@ -194,12 +188,10 @@ impl GroundTruth {
 }
 
 pub(super) fn column<'t>(table: &'t Table, name: &str) -> Result<&'t [f64], ValidateError> {
-    table.column(name).map(|column| column.values.as_slice()).ok_or_else(|| {
-        ValidateError::MissingColumn {
-            table: table.origin.clone(),
-            column: name.to_owned(),
-            known: table.columns.iter().map(|column| column.name.clone()).collect(),
-        }
+    let column = table.column(name).map(|column| column.values.as_slice());
+    column.ok_or_else(|| ValidateError::Unusable {
+        origin: table.origin.clone(),
+        what: format!("no column `{name}`; there are: {}", table.names().join(", ")),
     })
 }
 
@@ -337,9 +329,10 @@ fn joined<T: Copy>(
     match target.outputs {
         1 => Ok(outputs.swap_remove(0)),
         wanted if wanted == outputs.len() => Ok(outputs.concat()),
-        expected => {
-            Err(ValidateError::Outputs { form: form.to_owned(), expected, got: outputs.len() })
-        }
+        expected => Err(ValidateError::Unusable {
+            origin: form.to_owned(),
+            what: format!("returns {} values, its reference {expected}", outputs.len()),
+        }),
     }
 }
 

@@ -125,7 +125,7 @@ impl Judged {
             .collect();
         match missing[..] {
             [at] if form.input_types()[at] == ScalarType::U32 => {
-                (!self.distributions.is_empty()).then_some(at)
+                (!self.truth.distributions.is_empty()).then_some(at)
             }
             _ => None,
         }
@@ -142,12 +142,12 @@ impl Judged {
             true => Ok((0..self.points.rows() * count).map(|number| number as f64).collect()),
             false => Ok(repeated(column(&self.points, argument)?)),
         });
-        let means: Vec<f64> = self.distributions.iter().map(|of| of.mean).collect();
+        let means: Vec<f64> = self.truth.distributions.iter().map(|of| of.mean).collect();
         Ok(GroundTruth {
             inputs: inputs.collect::<Result<_, ValidateError>>()?,
             arguments,
             values: repeated(&means),
-            distributions: self.distributions.clone(),
+            distributions: self.truth.distributions.clone(),
             ..GroundTruth::none()
         })
     }
@@ -161,7 +161,7 @@ impl GroundTruth {
     }
 
     /// The arguments of the first draw at a point.
-    pub fn at(&self, point: usize) -> BTreeMap<String, f64> {
+    pub fn place(&self, point: usize) -> BTreeMap<String, f64> {
         let row = point * (self.values.len() / self.distributions.len().max(1));
         let inputs = self.arguments.iter().zip(&self.inputs);
         inputs.filter_map(|(name, column)| Some((name.clone(), *column.get(row)?))).collect()

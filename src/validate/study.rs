@@ -15,7 +15,7 @@ use crate::validate::draws::DrawsStudy;
 use crate::validate::family::{FormOverFamily, GroupSpread, over_family, spreads};
 use crate::validate::laws::{LawVerdict, judge};
 use crate::validate::parity::{Parity, parity};
-use crate::validate::regions::{Atlas, Grounds};
+use crate::validate::regions::{Atlas, Grounds, served};
 
 /// A candidate for a reference, judged.
 #[derive(Debug, Clone)]
@@ -164,8 +164,8 @@ fn one(
         }
         Ok::<_, ValidateError>(found)
     };
-    let regions = judged(grounds.regions(&candidate.form)?)?;
-    let hard_cases = judged(grounds.hard_cases(&candidate.form)?)?;
+    let regions = judged(served(&grounds.regions, &candidate.form)?)?;
+    let hard_cases = judged(served(&grounds.hard_cases, &candidate.form)?)?;
     let parity = match (&kernel, grounds.everywhere(&candidate.form)?) {
         (Measured::Value(kernel), Some(target)) => {
             Measured::Value(parity(candidate, &target, kernel)?)
