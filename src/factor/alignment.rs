@@ -44,11 +44,8 @@ impl Alignment {
         let [b, d] = [y_rad.cos(), y_rad.sin()];
         let determinant = a * d - b * c;
         if determinant.is_nan() || determinant.abs() <= PARALLEL {
-            return Err(LowRankError::Setting {
-                name: "directions",
-                expected: "two that are not parallel".into(),
-                got: format!("{}° and {}°", x_rad.to_degrees(), y_rad.to_degrees()),
-            });
+            let got = format!("{}° and {}°", x_rad.to_degrees(), y_rad.to_degrees());
+            return Err(LowRankError::setting("directions", "two that are not parallel", got));
         }
         Ok(Self { matrix: [[d, -b], [-c, a]].map(|row| row.map(|v| v / determinant)) })
     }
@@ -85,7 +82,7 @@ impl Alignment {
         let directions_deg = Some(self.angles_rad().map(f64::to_degrees));
         let record = Record { matrix: self.matrix, directions_deg };
         toml::to_string(&record)
-            .map_err(|e| LowRankError::Unusable { origin: "alignment".into(), what: e.to_string() })
+            .map_err(|error| LowRankError::unusable("alignment", error.to_string()))
     }
 
     /// From the text of a file, which `origin` names in messages.
@@ -93,7 +90,7 @@ impl Alignment {
     /// # Errors
     /// [`LowRankError::Unusable`] for another structure, or a matrix without an inverse.
     pub fn from_toml(origin: &str, text: &str) -> Result<Self, LowRankError> {
-        let fault = |what: String| LowRankError::Unusable { origin: origin.into(), what };
+        let fault = |what: String| LowRankError::unusable(origin, what);
         let record: Record =
             toml::from_str(text).map_err(|e| fault(e.to_string().trim_end().to_owned()))?;
         let [[a, b], [c, d]] = record.matrix;

@@ -78,16 +78,9 @@ impl ConvolutionNorm {
         y: &Axis,
         options: &NormOptions,
     ) -> Result<Self, LowRankError> {
-        let setting = |name, expected: &str| LowRankError::Setting {
-            name,
-            expected: expected.into(),
-            got: "none".into(),
-        };
-        if environments.is_empty() {
-            return Err(setting("environments", "at least one"));
-        }
-        if options.orientations == 0 {
-            return Err(setting("orientations", "at least one"));
+        let counts = [("environments", environments.len()), ("orientations", options.orientations)];
+        if let Some((name, _)) = counts.into_iter().find(|(_, count)| *count == 0) {
+            return Err(LowRankError::setting(name, "at least one", "none"));
         }
         let patch = patch(x, y, &options.alignment);
         let [width, height] = patch.count;
@@ -105,10 +98,9 @@ impl ConvolutionNorm {
             };
             let own = at(0, 0);
             if !(own.is_finite() && own > 0.0) {
-                return Err(LowRankError::Unusable {
-                    origin: format!("environment {}", environment.origin),
-                    what: "dark around every normal that was drawn".into(),
-                });
+                let origin = format!("environment {}", environment.origin);
+                let what = "dark around every normal that was drawn";
+                return Err(LowRankError::unusable(origin, what));
             }
             for iy in 0..2 * ny - 1 {
                 for ix in 0..2 * nx - 1 {

@@ -47,3 +47,19 @@ pub enum LowRankError {
         what: String,
     },
 }
+
+impl LowRankError {
+    /// [`LowRankError::Setting`].
+    pub(super) fn setting(
+        name: &'static str,
+        expected: impl Into<String>,
+        got: impl Into<String>,
+    ) -> Self {
+        Self::Setting { name, expected: expected.into(), got: got.into() }
+    }
+
+    /// [`LowRankError::Unusable`].
+    pub(super) fn unusable(origin: impl Into<String>, what: impl Into<String>) -> Self {
+        Self::Unusable { origin: origin.into(), what: what.into() }
+    }
+}

@@ -45,8 +45,7 @@ impl LowRank {
         let path = folder.join(ALIGNMENT);
         let origin = path.display().to_string();
         let alignment = Alignment::from_toml(&origin, &store::read_text(&path)?)?;
-        let fault =
-            |what: String| LowRankError::Unusable { origin: folder.display().to_string(), what };
+        let fault = |what: String| LowRankError::unusable(folder.display().to_string(), what);
         if vertical.y().count != horizontal.y().count {
             let (v, h) = (vertical.y().count, horizontal.y().count);
             return Err(fault(format!("{v} vertical terms and {h} horizontal ones")));
@@ -86,10 +85,9 @@ fn side(name: &str, axis: &Axis, lists: &Lists<'_>) -> Result<Grid, LowRankError
     let mut channels = Vec::with_capacity(lists.len());
     for (channel, terms) in lists {
         if terms.len() != rank || terms.iter().any(|list| list.len() != axis.count) {
-            return Err(LowRankError::Unusable {
-                origin: format!("{name} factors of channel {channel:?}"),
-                what: format!("expected {rank} terms of {} values", axis.count),
-            });
+            let what = format!("expected {rank} terms of {} values", axis.count);
+            let origin = format!("{name} factors of channel {channel:?}");
+            return Err(LowRankError::unusable(origin, what));
         }
         let values = terms.iter().flatten().map(|v| *v as f32).collect();
         channels.push(GridChannel::new(*channel, "1", values));

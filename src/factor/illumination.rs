@@ -49,10 +49,8 @@ impl<'a> Sampler<'a> {
         radiance: Radiance,
     ) -> Result<Self, LowRankError> {
         let (width, height) = (environment.width, environment.height);
-        let fault = |what: String| LowRankError::Unusable {
-            origin: format!("environment {}", environment.origin),
-            what,
-        };
+        let origin = || format!("environment {}", environment.origin);
+        let fault = |what: String| LowRankError::unusable(origin(), what);
         let expected = width.saturating_mul(height);
         if expected == 0 || environment.radiance.len() != expected {
             let got = environment.radiance.len();

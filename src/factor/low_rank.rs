@@ -127,10 +127,9 @@ impl LowRank {
         require_size(table, [self.x.count, self.y.count], "the factors have")?;
         let named = |channel: &'g GridChannel| {
             let factors = self.channels.iter().find(|f| f.name == channel.name);
-            let factors = factors.ok_or_else(|| LowRankError::Unusable {
-                origin: table.origin.clone(),
-                what: format!("no factors for channel {:?}", channel.name),
-            })?;
+            let lacking = || format!("no factors for channel {:?}", channel.name);
+            let factors =
+                factors.ok_or_else(|| LowRankError::unusable(&table.origin, lacking()))?;
             Ok((channel, Terms::of(factors, self.y.count, self.x.count)))
         };
         table.channels.iter().map(named).collect()

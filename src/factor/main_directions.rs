@@ -86,11 +86,8 @@ pub fn main_directions(
     table.check_plane()?;
     let least = options.minimum_angle_rad;
     if !(PI / 180.0 * 0.999..=FRAC_PI_2).contains(&least) {
-        return Err(LowRankError::Setting {
-            name: "minimum angle",
-            expected: "1° to 90°".into(),
-            got: format!("{}°", least.to_degrees()),
-        });
+        let got = format!("{}°", least.to_degrees());
+        return Err(LowRankError::setting("minimum angle", "1° to 90°", got));
     }
     let (plane, channel) = intensity(table, options.channel.as_deref())?;
     if channel.values.iter().all(|v| *v == 0.0) {
@@ -99,11 +96,8 @@ pub fn main_directions(
     let radius = radius(table)?;
     let central = options.central_radius.unwrap_or(radius / 20.0);
     if !(0.0..radius).contains(&central) {
-        return Err(LowRankError::Setting {
-            name: "central radius",
-            expected: format!("0 to {radius}, half the smaller side"),
-            got: central.to_string(),
-        });
+        let expected = format!("0 to {radius}, half the smaller side");
+        return Err(LowRankError::setting("central radius", expected, central.to_string()));
     }
     let sums: Vec<f64> = (0..LINES)
         .into_par_iter()
@@ -153,17 +147,9 @@ fn radius(table: &Grid) -> Result<f64, LowRankError> {
     if radius > 0.0 {
         return Ok(radius);
     }
-    Err(LowRankError::Setting {
-        name: "axes",
-        expected: "h = 0 inside the table".into(),
-        got: format!(
-            "{} to {}, {} to {}",
-            table.x().from,
-            table.x().to,
-            table.y().from,
-            table.y().to
-        ),
-    })
+    let (x, y) = (table.x(), table.y());
+    let got = format!("{} to {}, {} to {}", x.from, x.to, y.from, y.to);
+    Err(LowRankError::setting("axes", "h = 0 inside the table", got))
 }
 
 /// Σ along both halves of the line at `angle`, in steps of half a texel.

@@ -51,10 +51,7 @@ pub(super) fn thin_svd(a: MatRef<'_, f64>, what: &str) -> Result<ThinSvd, LowRan
 }
 
 fn not_converged(what: &str) -> LowRankError {
-    LowRankError::Unusable {
-        origin: what.into(),
-        what: "the singular values did not converge".into(),
-    }
+    LowRankError::unusable(what, "the singular values did not converge")
 }
 
 /// Eigenvalues, ascending, and eigenvectors, one per column, of a symmetric matrix.

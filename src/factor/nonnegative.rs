@@ -33,7 +33,7 @@ pub fn nonnegative(
                  negative cannot give it",
                 channel.name
             );
-            return Err(LowRankError::Unusable { origin: table.origin.clone(), what });
+            return Err(LowRankError::unusable(&table.origin, what));
         }
     }
     let fit = |_: usize, s: &Mat<f64>, start: Terms| {

@@ -31,17 +31,14 @@ impl Weight {
     pub fn new(x: &Axis, y: &Axis, values: Vec<f64>) -> Result<Self, LowRankError> {
         let expected = x.count.saturating_mul(y.count);
         if values.len() != expected {
-            return Err(LowRankError::Unusable {
-                origin: "weight".into(),
-                what: format!("{} values, expected {expected}", values.len()),
-            });
+            let what = format!("{} values, expected {expected}", values.len());
+            return Err(LowRankError::unusable("weight", what));
         }
         match values.iter().find(|w| !(w.is_finite() && **w >= 0.0)) {
-            Some(bad) => Err(LowRankError::Setting {
-                name: "weight",
-                expected: "finite values that are not negative".into(),
-                got: bad.to_string(),
-            }),
+            Some(bad) => {
+                let expected = "finite values that are not negative";
+                Err(LowRankError::setting("weight", expected, bad.to_string()))
+            }
             None => Ok(Self { size: [x.count, y.count], values }),
         }
     }

@@ -32,9 +32,6 @@ pub(super) struct Scaled<'p, 'a> {
 
 impl<'p, 'a> Scaled<'p, 'a> {
     /// Scaled so that the Jacobian's columns have length 1 at `origin`.
-    ///
-    /// # Errors
-    /// [`FormError`] from the model.
     pub(super) fn columns(
         problem: &'p Problem<'a>,
         origin: DVector<f64>,
@@ -46,9 +43,6 @@ impl<'p, 'a> Scaled<'p, 'a> {
 
     /// Scaled so that the Jacobian's columns are orthonormal at `origin`; directions without
     /// effect keep the scale of their columns.
-    ///
-    /// # Errors
-    /// [`FormError`] from the model.
     pub(super) fn orthonormal(
         problem: &'p Problem<'a>,
         origin: DVector<f64>,
