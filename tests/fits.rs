@@ -295,7 +295,7 @@ fn what_is_not_finite_never_converges() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("r.json");
     FitResult::Single(Box::new(outcome)).write(&path).unwrap();
-    assert!(Outcome::read(&path).unwrap().residuals.rms.is_nan());
+    assert!(FitResult::read(&path).unwrap().outcomes()[0].residuals.rms.is_nan());
 }
 
 #[test]
@@ -381,10 +381,10 @@ fn results_read_back_as_they_were_written() {
     assert_eq!(FitResult::read(&path).unwrap(), result);
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::write(&path, &text[..text.len() / 2]).unwrap();
-    let error = Outcome::read(&path).unwrap_err();
+    let error = FitResult::read(&path).unwrap_err();
     assert!(matches!(error, FitError::Result { .. }) && error.to_string().contains("r.json"));
     std::fs::write(&path, text.replace("\"schema\": 1", "\"schema\": 2")).unwrap();
-    assert!(matches!(Outcome::read(&path), Err(FitError::Schema { got: 2, .. })));
+    assert!(matches!(FitResult::read(&path), Err(FitError::Schema { got: 2, .. })));
 }
 
 const SPEC: &str = r#"form = "sine_integral/published"

@@ -7,12 +7,12 @@ use serde::Serialize;
 use super::Ending;
 use super::context::Context;
 use crate::gpu::TimingOptions;
-use crate::report::pages::cost_section;
+use crate::report::pages::{cost_section, draws_section};
 use crate::run::{Studied, write_costs};
-use crate::validate::cheapest::{Cheapest, cheapest};
 use crate::validate::cost::Costs;
-use crate::validate::goals::{GoalVerdict, goals};
-use crate::validate::standing::{Standing, standings};
+use crate::validate::draws::DrawsStudy;
+use crate::validate::standing::{Cheapest, GoalVerdict, Standing, cheapest, goals, standings};
+use crate::validate::study::CandidateStudy;
 
 const MORE: &str = "\
 Forms are timed in one run, interleaved, on f64 and f32 lanes (one core) and, where there is an
@@ -41,6 +41,17 @@ struct Bench<'a> {
     forms: Vec<Standing<'a>>,
     cheapest: Vec<Cheapest>,
     goals: Vec<GoalVerdict>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    draws: Vec<DrawsIn<'a>>,
+}
+
+/// Draws of a form in a region.
+#[derive(Debug, Serialize)]
+struct DrawsIn<'a> {
+    fit: &'a str,
+    region: &'a str,
+    #[serde(flatten)]
+    draws: &'a DrawsStudy,
 }
 
 impl<'a> Bench<'a> {
@@ -52,8 +63,13 @@ impl<'a> Bench<'a> {
             forms: standings(study, costs),
             cheapest: cheapest(study, costs),
             goals: goals(effect, study, costs),
+            draws: study.candidates.iter().flat_map(draws_of).collect(),
         }
     }
+}
+
+fn draws_of(of: &CandidateStudy) -> impl Iterator<Item = DrawsIn<'_>> {
+    of.draws.iter().map(|(region, draws)| DrawsIn { fit: &of.name, region, draws })
 }
 
 /// Times, and prints the frontier.
@@ -76,6 +92,7 @@ pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<En
     let benches: Vec<Bench<'_>> = studied.iter().map(Bench::of).collect();
     context.output.sections(&benches, || {
         let section = |of: &Studied| cost_section(of.effect.name, of.effect, &of.study, &of.costs);
-        studied.iter().map(section).collect()
+        let sections = studied.iter().map(|of| [Some(section(of)), draws_section(&of.study)]);
+        sections.flatten().flatten().collect()
     })
 }

@@ -69,7 +69,8 @@ pub enum Evaluate {
     Scalar(fn(&[f64]) -> Result<f64, DomainError>),
     /// Several, by name; forms of it return as many and are judged on all of them together.
     Vector(&'static [&'static str], fn(&[f64]) -> Result<Vec<f64>, DomainError>),
-    /// A distribution of counts. As a vector it is its mean and its variance.
+    /// A distribution of counts. A form of it either draws from it, numbered by a `u32` argument of its
+    /// own (a seed, a counter), or returns mean and variance and is judged as a vector.
     Distribution(fn(&[f64]) -> Result<Distribution, DomainError>),
 }
 
@@ -82,6 +83,24 @@ pub struct Distribution {
     pub variance: f64,
     /// Probability of each count from 0; what is missing to 1 lies beyond.
     pub probabilities: Vec<f64>,
+}
+
+impl Distribution {
+    /// The odds of each count against the one below it times `factor`, mean and variance with them: of a
+    /// binomial or a Poisson distribution another of its kind. For distributions of which nothing lies
+    /// beyond the probabilities.
+    pub fn tilted(&self, factor: f64) -> Self {
+        let weights = (0..).zip(&self.probabilities).map(|(k, p)| p * factor.powi(k));
+        let weights: Vec<f64> = weights.collect();
+        let sum: f64 = weights.iter().sum();
+        let probabilities: Vec<f64> = weights.iter().map(|weight| weight / sum).collect();
+        let moment = |of: &dyn Fn(f64) -> f64| -> f64 {
+            (0..).zip(&probabilities).map(|(k, p)| p * of(f64::from(k))).sum()
+        };
+        let mean = moment(&|k| k);
+        let variance = moment(&|k| (k - mean) * (k - mean));
+        Self { mean, variance, probabilities }
+    }
 }
 
 /// An exact value, in f64, from a formula independent of every form that it judges.

@@ -106,6 +106,17 @@ impl Reference {
         };
         Ok((0..self.outputs().len()).flat_map(of).collect())
     }
+
+    /// The distribution at every row of `columns`, one per argument in their order; none of a reference
+    /// that returns numbers.
+    ///
+    /// # Errors
+    /// [`NoValue`] with the first row outside the domain.
+    pub fn distributions(&self, columns: &[&[f64]]) -> Result<Vec<Distribution>, NoValue> {
+        let Evaluate::Distribution(distribution) = self.evaluate else { return Ok(Vec::new()) };
+        let point = |row: usize| -> Vec<f64> { columns.iter().map(|column| column[row]).collect() };
+        in_order(columns.first().map_or(0, |column| column.len()), |row| distribution(&point(row)))
+    }
 }
 
 /// `value` of every row, in parallel; the fault of the first row that has one, whatever the number of

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::LowRankError;
-use super::resampling::bicubic;
 use crate::table::{Grid, GridChannel, centres};
 
 /// Determinants below this part of the product of the rows' lengths are 0: the two directions are
@@ -45,11 +44,8 @@ impl Alignment {
         let [b, d] = [y_rad.cos(), y_rad.sin()];
         let determinant = a * d - b * c;
         if determinant.is_nan() || determinant.abs() <= PARALLEL {
-            return Err(LowRankError::Setting {
-                name: "directions",
-                expected: "two that are not parallel".into(),
-                got: format!("{}° and {}°", x_rad.to_degrees(), y_rad.to_degrees()),
-            });
+            let got = format!("{}° and {}°", x_rad.to_degrees(), y_rad.to_degrees());
+            return Err(LowRankError::setting("directions", "two that are not parallel", got));
         }
         Ok(Self { matrix: [[d, -b], [-c, a]].map(|row| row.map(|v| v / determinant)) })
     }
@@ -81,20 +77,20 @@ impl Alignment {
     /// As a TOML file.
     ///
     /// # Errors
-    /// [`LowRankError::Mismatch`] for a matrix that TOML cannot write.
+    /// [`LowRankError::Unusable`] for a matrix that TOML cannot write.
     pub fn to_toml(&self) -> Result<String, LowRankError> {
         let directions_deg = Some(self.angles_rad().map(f64::to_degrees));
         let record = Record { matrix: self.matrix, directions_deg };
         toml::to_string(&record)
-            .map_err(|e| LowRankError::Mismatch { origin: "alignment".into(), what: e.to_string() })
+            .map_err(|error| LowRankError::unusable("alignment", error.to_string()))
     }
 
     /// From the text of a file, which `origin` names in messages.
     ///
     /// # Errors
-    /// [`LowRankError::Mismatch`] for another structure, or a matrix without an inverse.
+    /// [`LowRankError::Unusable`] for another structure, or a matrix without an inverse.
     pub fn from_toml(origin: &str, text: &str) -> Result<Self, LowRankError> {
-        let fault = |what: String| LowRankError::Mismatch { origin: origin.into(), what };
+        let fault = |what: String| LowRankError::unusable(origin, what);
         let record: Record =
             toml::from_str(text).map_err(|e| fault(e.to_string().trim_end().to_owned()))?;
         let [[a, b], [c, d]] = record.matrix;
@@ -129,4 +125,43 @@ pub fn aligned(table: &Grid, alignment: &Alignment) -> Result<Grid, LowRankError
         channels: channels.collect(),
         origin: format!("{}, aligned", table.origin),
     })
+}
+
+/// The value of `channel` at h: Catmull & Rom's cubic through the sixteen texels around, held within
+/// their range so that a table that is not negative stays so; 0 beyond the table's outer edges.
+pub(super) fn bicubic(table: &Grid, channel: &GridChannel, h: [f64; 2]) -> f64 {
+    let (nx, ny) = (table.x().count, table.y().count);
+    let (tx, ty) = (table.x().texel(h[0]), table.y().texel(h[1]));
+    let on = |t: f64, n: usize| (-0.5..=n as f64 - 0.5).contains(&t);
+    if !(on(tx, nx) && on(ty, ny)) {
+        return 0.0;
+    }
+    let (left, top) = (tx.floor(), ty.floor());
+    let at = |i: i64, j: i64| {
+        let i = i.clamp(0, nx as i64 - 1) as usize;
+        let j = j.clamp(0, ny as i64 - 1) as usize;
+        channel.values.get(j * nx + i).map_or(0.0, |v| f64::from(*v))
+    };
+    let (wx, wy) = (catmull_rom(tx - left), catmull_rom(ty - top));
+    let (mut sum, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
+    for (j, y) in (top as i64 - 1..).zip(wy) {
+        for (i, x) in (left as i64 - 1..).zip(wx) {
+            let value = at(i, j);
+            sum += x * y * value;
+            low = value.min(low);
+            high = value.max(high);
+        }
+    }
+    sum.clamp(low, high)
+}
+
+/// Weights of the texels −1, 0, 1, 2 at `t` in [0, 1).
+fn catmull_rom(t: f64) -> [f64; 4] {
+    let (t2, t3) = (t * t, t * t * t);
+    [
+        0.5 * (-t + 2.0 * t2 - t3),
+        0.5 * (2.0 - 5.0 * t2 + 3.0 * t3),
+        0.5 * (t + 4.0 * t2 - 3.0 * t3),
+        0.5 * (t3 - t2),
+    ]
 }

@@ -70,7 +70,7 @@ impl ConvolutionNorm {
     ///
     /// # Errors
     /// [`LowRankError::Setting`] without environments or orientations;
-    /// [`LowRankError::Environment`] for texels that are missing, negative or not finite, or if no
+    /// [`LowRankError::Unusable`] for texels that are missing, negative or not finite, or if no
     /// patch has any light.
     pub fn from_environments(
         environments: &[Environment],
@@ -78,16 +78,9 @@ impl ConvolutionNorm {
         y: &Axis,
         options: &NormOptions,
     ) -> Result<Self, LowRankError> {
-        let setting = |name, expected: &str| LowRankError::Setting {
-            name,
-            expected: expected.into(),
-            got: "none".into(),
-        };
-        if environments.is_empty() {
-            return Err(setting("environments", "at least one"));
-        }
-        if options.orientations == 0 {
-            return Err(setting("orientations", "at least one"));
+        let counts = [("environments", environments.len()), ("orientations", options.orientations)];
+        if let Some((name, _)) = counts.into_iter().find(|(_, count)| *count == 0) {
+            return Err(LowRankError::setting(name, "at least one", "none"));
         }
         let patch = patch(x, y, &options.alignment);
         let [width, height] = patch.count;
@@ -105,10 +98,9 @@ impl ConvolutionNorm {
             };
             let own = at(0, 0);
             if !(own.is_finite() && own > 0.0) {
-                return Err(LowRankError::Environment {
-                    origin: environment.origin.clone(),
-                    what: "dark around every normal that was drawn".into(),
-                });
+                let origin = format!("environment {}", environment.origin);
+                let what = "dark around every normal that was drawn";
+                return Err(LowRankError::unusable(origin, what));
             }
             for iy in 0..2 * ny - 1 {
                 for ix in 0..2 * nx - 1 {
@@ -177,7 +169,7 @@ impl ConvolutionNorm {
     /// ‖S − Ŝ‖_R/‖S‖_R per channel; 0 for a channel that is 0.
     ///
     /// # Errors
-    /// [`LowRankError::Mismatch`] if the table has another size than the norm or other channels
+    /// [`LowRankError::Unusable`] if the table has another size than the norm or other channels
     /// than the factors.
     pub fn relative_errors(
         &self,
@@ -255,8 +247,8 @@ fn power_spectrum(
 /// direction. Independent of [`ConvolutionNorm`]: no shift, no autocorrelation.
 ///
 /// # Errors
-/// [`LowRankError::Environment`] for texels that are missing, negative or not finite;
-/// [`LowRankError::Mismatch`] if the factors have other channels or axes.
+/// [`LowRankError::Unusable`] for texels that are missing, negative or not finite, and if the factors
+/// have other channels or axes.
 pub fn seen_error(
     table: &Grid,
     factors: &LowRank,

@@ -19,7 +19,7 @@ use faer::{Mat, MatRef};
 use nalgebra::DVector;
 
 use super::convolution_norm::ConvolutionNorm;
-use super::matrix::{inner, solve_towards, symmetric_eigen, thin_svd, times};
+use super::matrix::{inner, solve_towards, symmetric_eigen, thin_svd};
 use super::methods::{Stopping, per_channel};
 use super::terms::Terms;
 use super::{Alignment, LowRank, LowRankError};
@@ -72,8 +72,8 @@ pub struct ConvolvedReport {
 /// singular value decomposition, from which it may start.
 ///
 /// # Errors
-/// As [`Grid::check`]; [`LowRankError::Rank`]; [`LowRankError::Mismatch`] if the norm was made for
-/// another size; [`LowRankError::NotConverged`].
+/// As [`Grid::check`]; [`LowRankError::Rank`]; [`LowRankError::Unusable`] if the norm was made for
+/// another size, or singular values do not converge.
 pub fn convolved(
     table: &Grid,
     alignment: Alignment,
@@ -156,7 +156,7 @@ fn side(lags: &Mat<f64>, seen: MatRef<'_, f64>, other: &Mat<f64>, now: &Mat<f64>
         let (i, m, j, k) = (a / rank, a % rank, b / rank, b % rank);
         if i >= j { block(i - j, m, k) } else { 0.0 }
     });
-    let projected = times(seen, other.as_ref());
+    let projected = seen * other.as_ref();
     let stacked =
         |matrix: &Mat<f64>| Mat::from_fn(n * rank, 1, |a, _| matrix[(a / rank, a % rank)]);
     let solved = solve_towards(system, stacked(&projected), stacked(now).as_ref(), ANCHOR);
@@ -205,12 +205,9 @@ fn whitened(
     let along_x = Mat::from_fn(nx, nx, |j, k| lags[(ny - 1, nx - 1 + j.abs_diff(k))]);
     let (y_root, y_inverse) = roots(&along_y, what)?;
     let (x_root, x_inverse) = roots(&along_x, what)?;
-    let white = times(times(y_root.as_ref(), s.as_ref()).as_ref(), x_root.as_ref());
+    let white = (&y_root * s).as_ref() * x_root.as_ref();
     let terms = Terms::of_svd(&thin_svd(white.as_ref(), what)?, rank);
-    Ok(Terms {
-        vertical: times(y_inverse.as_ref(), terms.vertical.as_ref()),
-        horizontal: times(x_inverse.as_ref(), terms.horizontal.as_ref()),
-    })
+    Ok(Terms { vertical: &y_inverse * &terms.vertical, horizontal: &x_inverse * &terms.horizontal })
 }
 
 /// A^½ and A^−½, eigenvalues floored.
@@ -222,7 +219,7 @@ fn roots(a: &Mat<f64>, what: &str) -> Result<(Mat<f64>, Mat<f64>), LowRankError>
             let value = values.get(k).copied().unwrap_or(0.0).max(floor);
             vectors[(i, k)] * value.powf(exponent)
         });
-        times(scaled.as_ref(), vectors.transpose())
+        scaled.as_ref() * vectors.transpose()
     };
     Ok((power(0.5), power(-0.5)))
 }
@@ -251,8 +248,8 @@ impl Both<'_> {
         let seen = self.norm.convolved(&d);
         let cost = inner(d.as_ref(), seen.as_ref()) / self.whole;
         let slopes = Terms {
-            vertical: times(seen.as_ref(), t.horizontal.as_ref()),
-            horizontal: times(seen.transpose(), t.vertical.as_ref()),
+            vertical: &seen * &t.horizontal,
+            horizontal: seen.transpose() * t.vertical.as_ref(),
         };
         let gradient = DVector::from(slopes.entries()).map(|slope| -2.0 * slope / self.whole);
         *self.last.borrow_mut() = Some((z.clone(), cost, gradient.clone()));

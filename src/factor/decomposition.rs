@@ -52,7 +52,7 @@ impl Decomposition {
     /// number of threads. Repeated values and signs as [`super`] says.
     ///
     /// # Errors
-    /// As [`Grid::check_plane`]; [`LowRankError::NotConverged`].
+    /// As [`Grid::check_plane`]; [`LowRankError::Unusable`] if singular values do not converge.
     pub fn of(table: &Grid) -> Result<Self, LowRankError> {
         Self::of_aligned(table, Alignment::identity())
     }
@@ -95,11 +95,8 @@ impl Decomposition {
     /// [`LowRankError::Setting`] unless `error` is in [0, 1].
     pub fn rank_for_error(&self, error: f64) -> Result<usize, LowRankError> {
         if !(0.0..=1.0).contains(&error) {
-            return Err(LowRankError::Setting {
-                name: "error",
-                expected: "a relative error from 0 to 1".into(),
-                got: error.to_string(),
-            });
+            let expected = "a relative error from 0 to 1";
+            return Err(LowRankError::setting("error", expected, error.to_string()));
         }
         let enough = |s: &SingularSpectrum| s.relative_errors.iter().position(|e| *e <= error);
         let ranks = self.spectra().map(|s| enough(s).unwrap_or_else(|| self.largest_rank()));

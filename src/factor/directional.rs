@@ -42,25 +42,20 @@ pub fn directional(
     half_width: f64,
 ) -> Result<Directional, LowRankError> {
     table.check_plane()?;
-    let setting = |name, expected: &str, got: String| LowRankError::Setting {
-        name,
-        expected: expected.into(),
-        got,
-    };
     if half_width.is_nan() || half_width <= 0.0 {
-        return Err(setting("half width", "above 0", half_width.to_string()));
+        return Err(LowRankError::setting("half width", "above 0", half_width.to_string()));
     }
     let mut units = Vec::with_capacity(directions.len());
     for [x, y] in directions {
         let length = x.hypot(*y);
         if !(length.is_finite() && length > 0.0) {
             let expected = "a finite vector that is not 0";
-            return Err(setting("direction", expected, format!("({x}, {y})")));
+            return Err(LowRankError::setting("direction", expected, format!("({x}, {y})")));
         }
         units.push([x / length, y / length]);
     }
     if units.is_empty() {
-        return Err(setting("directions", "at least one", "none".into()));
+        return Err(LowRankError::setting("directions", "at least one", "none"));
     }
     let axes: Vec<Axis> = units.iter().map(|d| axis_along(table, *d)).collect();
     let area = spacing(table.x()) * spacing(table.y());

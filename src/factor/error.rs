@@ -37,42 +37,29 @@ pub enum LowRankError {
         /// The table.
         origin: String,
     },
-    /// A negative value where factors may not be negative.
-    #[error(
-        "{origin}: channel {channel:?}, texel ({ix}, {iy}): {value} is negative, and factors that are not negative cannot give it"
-    )]
-    Negative {
-        /// The table.
-        origin: String,
-        /// The channel.
-        channel: String,
-        /// Texel along x.
-        ix: usize,
-        /// Texel along y.
-        iy: usize,
-        /// The value.
-        value: f32,
-    },
-    /// The singular values of a channel did not converge.
-    #[error("{what}: the singular values did not converge")]
-    NotConverged {
-        /// Table or matrix.
-        what: String,
-    },
-    /// An environment that cannot weigh an error.
-    #[error("environment {origin}: {what}")]
-    Environment {
-        /// The environment.
-        origin: String,
-        /// Expected and got.
-        what: String,
-    },
-    /// Files of factors that do not belong together, or a table of another size.
+    /// What cannot be worked with: files of factors that do not belong together, a table of another size
+    /// or with negative values, an environment without light, values that do not converge.
     #[error("{origin}: {what}")]
-    Mismatch {
-        /// File, folder or table.
+    Unusable {
+        /// File, folder, table or environment.
         origin: String,
         /// Expected and got.
         what: String,
     },
+}
+
+impl LowRankError {
+    /// [`LowRankError::Setting`].
+    pub(super) fn setting(
+        name: &'static str,
+        expected: impl Into<String>,
+        got: impl Into<String>,
+    ) -> Self {
+        Self::Setting { name, expected: expected.into(), got: got.into() }
+    }
+
+    /// [`LowRankError::Unusable`].
+    pub(super) fn unusable(origin: impl Into<String>, what: impl Into<String>) -> Self {
+        Self::Unusable { origin: origin.into(), what: what.into() }
+    }
 }

@@ -17,7 +17,7 @@ impl LowRank {
     /// Writes the files into `folder`, which exists; each whole or not at all.
     ///
     /// # Errors
-    /// As [`Grid::write_exr`] and [`Table::write_csv`]; [`LowRankError::Mismatch`] for factors whose
+    /// As [`Grid::write_exr`] and [`Table::write_csv`]; [`LowRankError::Unusable`] for factors whose
     /// channels have different numbers of terms.
     pub fn write(&self, folder: &Path) -> Result<(), LowRankError> {
         for (name, axis, lists) in [
@@ -37,7 +37,7 @@ impl LowRank {
     /// Reads what [`LowRank::write`] wrote; the factors are those of the EXR files, rounded to f32.
     ///
     /// # Errors
-    /// As [`Grid::read_exr`], for a file that is not there among others; [`LowRankError::Mismatch`]
+    /// As [`Grid::read_exr`], for a file that is not there among others; [`LowRankError::Unusable`]
     /// if the two sides have other channels or numbers of terms, or the alignment is none.
     pub fn read(folder: &Path) -> Result<Self, LowRankError> {
         let vertical = Grid::read_exr(folder.join(format!("{VERTICAL}.exr")))?;
@@ -45,8 +45,7 @@ impl LowRank {
         let path = folder.join(ALIGNMENT);
         let origin = path.display().to_string();
         let alignment = Alignment::from_toml(&origin, &store::read_text(&path)?)?;
-        let fault =
-            |what: String| LowRankError::Mismatch { origin: folder.display().to_string(), what };
+        let fault = |what: String| LowRankError::unusable(folder.display().to_string(), what);
         if vertical.y().count != horizontal.y().count {
             let (v, h) = (vertical.y().count, horizontal.y().count);
             return Err(fault(format!("{v} vertical terms and {h} horizontal ones")));
@@ -86,10 +85,9 @@ fn side(name: &str, axis: &Axis, lists: &Lists<'_>) -> Result<Grid, LowRankError
     let mut channels = Vec::with_capacity(lists.len());
     for (channel, terms) in lists {
         if terms.len() != rank || terms.iter().any(|list| list.len() != axis.count) {
-            return Err(LowRankError::Mismatch {
-                origin: format!("{name} factors of channel {channel:?}"),
-                what: format!("expected {rank} terms of {} values", axis.count),
-            });
+            let what = format!("expected {rank} terms of {} values", axis.count);
+            let origin = format!("{name} factors of channel {channel:?}");
+            return Err(LowRankError::unusable(origin, what));
         }
         let values = terms.iter().flatten().map(|v| *v as f32).collect();
         channels.push(GridChannel::new(*channel, "1", values));

@@ -43,14 +43,14 @@ pub(super) struct Sampler<'a> {
 
 impl<'a> Sampler<'a> {
     /// # Errors
-    /// [`LowRankError::Environment`] if texels are missing, negative or not finite.
+    /// [`LowRankError::Unusable`] if texels are missing, negative or not finite.
     pub(super) fn new(
         environment: &'a Environment,
         radiance: Radiance,
     ) -> Result<Self, LowRankError> {
         let (width, height) = (environment.width, environment.height);
-        let fault =
-            |what: String| LowRankError::Environment { origin: environment.origin.clone(), what };
+        let origin = || format!("environment {}", environment.origin);
+        let fault = |what: String| LowRankError::unusable(origin(), what);
         let expected = width.saturating_mul(height);
         if expected == 0 || environment.radiance.len() != expected {
             let got = environment.radiance.len();

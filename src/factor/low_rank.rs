@@ -3,7 +3,7 @@
 use faer::Mat;
 use rayon::prelude::*;
 
-use super::matrix::{norm_squared, of_channel, texels};
+use super::matrix::{of_channel, texels};
 use super::methods::require_size;
 use super::terms::Terms;
 use super::{Alignment, LowRankError};
@@ -100,9 +100,9 @@ impl LowRank {
     /// is 0 and given as 0.
     ///
     /// # Errors
-    /// [`LowRankError::Mismatch`] if the table has other channels or another size.
+    /// [`LowRankError::Unusable`] if the table has other channels or another size.
     pub fn relative_errors(&self, aligned: &Grid) -> Result<Vec<f64>, LowRankError> {
-        self.relative_errors_by(aligned, |d| norm_squared(d.as_ref()))
+        self.relative_errors_by(aligned, |d| d.squared_norm_l2())
     }
 
     /// ‖S − Ŝ‖/‖S‖ per channel under a norm, `squared`; 0 for a channel that is 0 under it.
@@ -127,10 +127,9 @@ impl LowRank {
         require_size(table, [self.x.count, self.y.count], "the factors have")?;
         let named = |channel: &'g GridChannel| {
             let factors = self.channels.iter().find(|f| f.name == channel.name);
-            let factors = factors.ok_or_else(|| LowRankError::Mismatch {
-                origin: table.origin.clone(),
-                what: format!("no factors for channel {:?}", channel.name),
-            })?;
+            let lacking = || format!("no factors for channel {:?}", channel.name);
+            let factors =
+                factors.ok_or_else(|| LowRankError::unusable(&table.origin, lacking()))?;
             Ok((channel, Terms::of(factors, self.y.count, self.x.count)))
         };
         table.channels.iter().map(named).collect()

@@ -19,8 +19,7 @@ use faer::Mat;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::matrix::{norm_squared, times};
-use super::resampling::bicubic;
+use super::alignment::bicubic;
 use super::{Alignment, LowRankError};
 use crate::table::{Axis, Edge, Grid, GridChannel, centres};
 
@@ -87,11 +86,8 @@ pub fn main_directions(
     table.check_plane()?;
     let least = options.minimum_angle_rad;
     if !(PI / 180.0 * 0.999..=FRAC_PI_2).contains(&least) {
-        return Err(LowRankError::Setting {
-            name: "minimum angle",
-            expected: "1° to 90°".into(),
-            got: format!("{}°", least.to_degrees()),
-        });
+        let got = format!("{}°", least.to_degrees());
+        return Err(LowRankError::setting("minimum angle", "1° to 90°", got));
     }
     let (plane, channel) = intensity(table, options.channel.as_deref())?;
     if channel.values.iter().all(|v| *v == 0.0) {
@@ -100,11 +96,8 @@ pub fn main_directions(
     let radius = radius(table)?;
     let central = options.central_radius.unwrap_or(radius / 20.0);
     if !(0.0..radius).contains(&central) {
-        return Err(LowRankError::Setting {
-            name: "central radius",
-            expected: format!("0 to {radius}, half the smaller side"),
-            got: central.to_string(),
-        });
+        let expected = format!("0 to {radius}, half the smaller side");
+        return Err(LowRankError::setting("central radius", expected, central.to_string()));
     }
     let sums: Vec<f64> = (0..LINES)
         .into_par_iter()
@@ -154,17 +147,9 @@ fn radius(table: &Grid) -> Result<f64, LowRankError> {
     if radius > 0.0 {
         return Ok(radius);
     }
-    Err(LowRankError::Setting {
-        name: "axes",
-        expected: "h = 0 inside the table".into(),
-        got: format!(
-            "{} to {}, {} to {}",
-            table.x().from,
-            table.x().to,
-            table.y().from,
-            table.y().to
-        ),
-    })
+    let (x, y) = (table.x(), table.y());
+    let got = format!("{} to {}, {} to {}", x.from, x.to, y.from, y.to);
+    Err(LowRankError::setting("axes", "h = 0 inside the table", got))
 }
 
 /// Σ along both halves of the line at `angle`, in steps of half a texel.
@@ -221,18 +206,18 @@ fn beyond_rank_one(plane: &Grid, channel: &GridChannel, [x, y]: [f64; 2]) -> f64
     let table = Mat::from_fn(ys.len(), xs.len(), |i, j| {
         rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0)
     });
-    let whole = norm_squared(table.as_ref());
-    let mut right = Mat::from_fn(xs.len(), 1, |_, _| 1.0);
+    let whole = table.squared_norm_l2();
+    let mut right = Mat::<f64>::from_fn(xs.len(), 1, |_, _| 1.0);
     let mut first = 0.0;
     for _ in 0..POWER_STEPS {
-        let length = norm_squared(right.as_ref()).sqrt();
+        let length = right.squared_norm_l2().sqrt();
         if length == 0.0 || whole == 0.0 {
             return 1.0;
         }
         right *= faer::Scale(1.0 / length);
-        let left = times(table.as_ref(), right.as_ref());
-        first = norm_squared(left.as_ref());
-        right = times(table.transpose(), left.as_ref());
+        let left = &table * &right;
+        first = left.squared_norm_l2();
+        right = table.transpose() * left.as_ref();
     }
     1.0 - first / whole
 }

@@ -1,14 +1,11 @@
 //! Dense matrices as this module needs them: a table's channel, thin singular value decomposition,
-//! symmetric solves, products of factors. Rows are y, columns are x.
+//! symmetric solves. Rows are y, columns are x.
 //!
-//! All of it runs on one thread, so that a sum never depends on how many there are; channels run
+//! faer is built without threads, so that a sum never depends on how many there are; channels run
 //! beside one another.
 
-use faer::diag::Diag;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::matmul::matmul;
-use faer::linalg::{cholesky::llt, evd, svd};
-use faer::{Accum, Mat, MatRef, Par};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, MatRef, Side};
 
 use super::LowRankError;
 use crate::table::{Grid, GridChannel};
@@ -29,18 +26,6 @@ pub(super) fn texels(matrix: MatRef<'_, f64>) -> Vec<f32> {
         .collect()
 }
 
-/// A b.
-pub(super) fn times(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
-    let mut product = Mat::zeros(a.nrows(), b.ncols());
-    matmul(product.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
-    product
-}
-
-/// Σ of the squares, column by column.
-pub(super) fn norm_squared(a: MatRef<'_, f64>) -> f64 {
-    a.squared_norm_l2()
-}
-
 /// ⟨a, b⟩, element by element.
 pub(super) fn inner(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> f64 {
     (0..a.ncols()).map(|j| (0..a.nrows()).map(|i| a[(i, j)] * b[(i, j)]).sum::<f64>()).sum()
@@ -57,80 +42,28 @@ pub(super) struct ThinSvd {
 /// The thin singular value decomposition.
 ///
 /// # Errors
-/// [`LowRankError::NotConverged`], naming `what`; the iteration only fails on values that are not
+/// [`LowRankError::Unusable`], naming `what`; the iteration only fails on values that are not
 /// finite.
 pub(super) fn thin_svd(a: MatRef<'_, f64>, what: &str) -> Result<ThinSvd, LowRankError> {
-    let (m, n) = a.shape();
-    let size = m.min(n);
-    let mut left = Mat::zeros(m, size);
-    let mut right = Mat::zeros(n, size);
-    let mut values = Diag::zeros(size);
-    let compute = svd::ComputeSvdVectors::Thin;
-    let scratch = svd::svd_scratch::<f64>(m, n, compute, compute, Par::Seq, Default::default());
-    svd::svd(
-        a,
-        values.as_mut(),
-        Some(left.as_mut()),
-        Some(right.as_mut()),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        Default::default(),
-    )
-    .map_err(|_| LowRankError::NotConverged { what: what.into() })?;
-    let values = values.column_vector().iter().copied().collect();
-    Ok(ThinSvd { left, values, right })
+    let svd = a.thin_svd().map_err(|_| not_converged(what))?;
+    let values = svd.S().column_vector().iter().copied().collect();
+    Ok(ThinSvd { left: svd.U().to_owned(), values, right: svd.V().to_owned() })
+}
+
+fn not_converged(what: &str) -> LowRankError {
+    LowRankError::unusable(what, "the singular values did not converge")
 }
 
 /// Eigenvalues, ascending, and eigenvectors, one per column, of a symmetric matrix.
 ///
 /// # Errors
-/// [`LowRankError::NotConverged`], naming `what`.
+/// [`LowRankError::Unusable`], naming `what`.
 pub(super) fn symmetric_eigen(
     a: MatRef<'_, f64>,
     what: &str,
 ) -> Result<(Vec<f64>, Mat<f64>), LowRankError> {
-    let n = a.nrows();
-    let mut vectors = Mat::zeros(n, n);
-    let mut values = Diag::zeros(n);
-    let scratch = evd::self_adjoint_evd_scratch::<f64>(
-        n,
-        evd::ComputeEigenvectors::Yes,
-        Par::Seq,
-        Default::default(),
-    );
-    evd::self_adjoint_evd(
-        a,
-        values.as_mut(),
-        Some(vectors.as_mut()),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        Default::default(),
-    )
-    .map_err(|_| LowRankError::NotConverged { what: what.into() })?;
-    Ok((values.column_vector().iter().copied().collect(), vectors))
-}
-
-/// Solves a symmetric positive definite system in place of `right` by Cholesky; only the lower
-/// triangle of `system` is read. `None`, and `right` as it was, if a pivot is not positive.
-pub(super) fn solve_spd(mut system: Mat<f64>, right: &mut Mat<f64>) -> Option<()> {
-    let n = system.nrows();
-    let scratch = llt::factor::cholesky_in_place_scratch::<f64>(n, Par::Seq, Default::default());
-    llt::factor::cholesky_in_place(
-        system.as_mut(),
-        Default::default(),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        Default::default(),
-    )
-    .ok()?;
-    let scratch = llt::solve::solve_in_place_scratch::<f64>(n, right.ncols(), Par::Seq);
-    llt::solve::solve_in_place(
-        system.as_ref(),
-        right.as_mut(),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-    );
-    Some(())
+    let eigen = a.self_adjoint_eigen(Side::Lower).map_err(|_| not_converged(what))?;
+    Ok((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
 }
 
 /// Solves `system` X = `right` for a small symmetric system that may be singular, plus
@@ -155,8 +88,7 @@ pub(super) fn solve_towards(
             right[(i, j)] += ridge * towards[(i, j)];
         }
     }
-    match solve_spd(system, &mut right) {
-        Some(()) if right.is_all_finite() => right,
-        _ => towards.to_owned(),
-    }
+    let Ok(factors) = system.llt(Side::Lower) else { return towards.to_owned() };
+    factors.solve_in_place(&mut right);
+    if right.is_all_finite() { right } else { towards.to_owned() }
 }

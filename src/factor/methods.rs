@@ -53,7 +53,7 @@ pub(super) fn require_size(
         return Ok(());
     }
     let what = format!("{x} × {y} texels, {what} {nx} × {ny}");
-    Err(LowRankError::Mismatch { origin: table.origin.clone(), what })
+    Err(LowRankError::unusable(&table.origin, what))
 }
 
 /// Factorises every channel from its singular value decomposition, one channel beside the other.

@@ -40,7 +40,6 @@ mod main_directions;
 mod matrix;
 mod methods;
 mod nonnegative;
-mod resampling;
 mod shared;
 mod terms;
 mod weighted;

@@ -8,7 +8,6 @@
 
 use faer::{Mat, MatRef};
 
-use super::matrix::{norm_squared, times};
 use super::methods::{Stopping, per_channel};
 use super::terms::Terms;
 use super::{Alignment, LowRank, LowRankError};
@@ -17,8 +16,8 @@ use crate::table::Grid;
 /// Fits factors of rank `rank` that are not negative to every channel.
 ///
 /// # Errors
-/// As [`Grid::check_plane`]; [`LowRankError::Negative`] for a table with a negative value;
-/// [`LowRankError::Rank`]; [`LowRankError::NotConverged`].
+/// As [`Grid::check_plane`]; [`LowRankError::Rank`]; [`LowRankError::Unusable`] for a table with a
+/// negative value, or if singular values do not converge.
 pub fn nonnegative(
     table: &Grid,
     alignment: Alignment,
@@ -28,18 +27,18 @@ pub fn nonnegative(
     table.check_plane()?;
     for channel in &table.channels {
         if let Some((at, value)) = channel.values.iter().enumerate().find(|(_, v)| **v < 0.0) {
-            return Err(LowRankError::Negative {
-                origin: table.origin.clone(),
-                channel: channel.name.clone(),
-                ix: at % table.x().count,
-                iy: at / table.x().count,
-                value: *value,
-            });
+            let (ix, iy) = (at % table.x().count, at / table.x().count);
+            let what = format!(
+                "channel {:?}, texel ({ix}, {iy}): {value} is negative, and factors that are not \
+                 negative cannot give it",
+                channel.name
+            );
+            return Err(LowRankError::unusable(&table.origin, what));
         }
     }
     let fit = |_: usize, s: &Mat<f64>, start: Terms| {
         let mut terms = positive_parts(&start);
-        let cost = |t: &Terms| norm_squared(t.residual(s).as_ref());
+        let cost = |t: &Terms| t.residual(s).squared_norm_l2();
         stopping.alternate(cost(&terms), || {
             column_steps(s.as_ref(), &mut terms.vertical, terms.horizontal.as_ref());
             column_steps(s.transpose(), &mut terms.horizontal, terms.vertical.as_ref());
@@ -85,8 +84,8 @@ fn positive_parts(start: &Terms) -> Terms {
 
 /// One pass over the columns of `side`, `other` held: s ≈ side · otherᵀ.
 fn column_steps(s: MatRef<'_, f64>, side: &mut Mat<f64>, other: MatRef<'_, f64>) {
-    let projected = times(s, other);
-    let gram = times(other.transpose(), other);
+    let projected = s * other;
+    let gram = other.transpose() * other;
     for m in 0..side.ncols() {
         let own = gram[(m, m)];
         if own <= 0.0 {

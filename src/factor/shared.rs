@@ -9,7 +9,7 @@
 use faer::{Mat, MatRef};
 
 use super::decomposition::require_rank;
-use super::matrix::{norm_squared, of_channel, solve_towards, thin_svd, times};
+use super::matrix::{of_channel, solve_towards, thin_svd};
 use super::methods::Stopping;
 use super::terms::{Terms, canonical, orient};
 use super::{Alignment, LowRank, LowRankError};
@@ -33,7 +33,8 @@ pub struct Shared {
 /// channels.
 ///
 /// # Errors
-/// As [`Grid::check_plane`]; [`LowRankError::Rank`]; [`LowRankError::NotConverged`].
+/// As [`Grid::check_plane`]; [`LowRankError::Rank`]; [`LowRankError::Unusable`] if singular
+/// values do not converge.
 pub fn shared(
     table: &Grid,
     alignment: Alignment,
@@ -85,17 +86,14 @@ fn side_step<'a>(
     let rank = other.ncols();
     let mut right = Mat::<f64>::zeros(rank, now.nrows());
     for (c, table) in tables.enumerate() {
-        let projected = times(table, other);
+        let projected = table * other;
         for m in 0..rank {
             for i in 0..now.nrows() {
                 right[(m, i)] += colours[(c, m)] * projected[(i, m)];
             }
         }
     }
-    let gram = elementwise(
-        &times(other.transpose(), other),
-        &times(colours.transpose(), colours.as_ref()),
-    );
+    let gram = elementwise(&(other.transpose() * other), &(colours.transpose() * colours.as_ref()));
     solve_towards(gram, right, now.transpose(), ANCHOR).transpose().to_owned()
 }
 
@@ -103,12 +101,12 @@ fn colour_step(tables: &[Mat<f64>], terms: &Terms, now: &Mat<f64>) -> Mat<f64> {
     let (v, h) = (terms.vertical.as_ref(), terms.horizontal.as_ref());
     let mut right = Mat::<f64>::zeros(terms.rank(), tables.len());
     for (c, table) in tables.iter().enumerate() {
-        let projected = times(table.as_ref(), h);
+        let projected = table.as_ref() * h;
         for m in 0..terms.rank() {
             right[(m, c)] = v.col(m).iter().zip(projected.col(m).iter()).map(|(a, b)| a * b).sum();
         }
     }
-    let gram = elementwise(&times(v.transpose(), v), &times(h.transpose(), h));
+    let gram = elementwise(&(v.transpose() * v), &(h.transpose() * h));
     solve_towards(gram, right, now.transpose(), ANCHOR).transpose().to_owned()
 }
 
@@ -127,7 +125,7 @@ fn coloured(terms: &Terms, colours: &Mat<f64>, channel: usize) -> Terms {
 
 fn cost(tables: &[Mat<f64>], terms: &Terms, colours: &Mat<f64>) -> f64 {
     let one = |(c, table): (usize, &Mat<f64>)| {
-        norm_squared(coloured(terms, colours, c).residual(table).as_ref())
+        coloured(terms, colours, c).residual(table).squared_norm_l2()
     };
     tables.iter().enumerate().map(one).sum()
 }
@@ -140,7 +138,7 @@ fn given_out(table: &Grid, alignment: Alignment, terms: &Terms, colours: &Mat<f6
         weights.fold(0.0f64, |most, g| if g.abs() > most.abs() { g } else { most })
     };
     let size = |m: usize| {
-        let length = |side: &Mat<f64>| norm_squared(side.as_ref().subcols(m, 1)).sqrt();
+        let length = |side: &Mat<f64>| side.as_ref().subcols(m, 1).squared_norm_l2().sqrt();
         peak(m).abs() * length(&terms.vertical) * length(&terms.horizontal)
     };
     let mut order: Vec<usize> = (0..rank).collect();

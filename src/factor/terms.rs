@@ -5,7 +5,7 @@ use faer::{Mat, MatRef};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Par};
 
-use super::matrix::{ThinSvd, norm_squared, thin_svd, times};
+use super::matrix::{ThinSvd, thin_svd};
 use super::{ChannelFactors, LowRankError};
 
 /// Σ_m vertical column m · horizontal column m: ny × r and nx × r.
@@ -41,7 +41,7 @@ impl Terms {
 
     /// Their sum.
     pub(super) fn product(&self) -> Mat<f64> {
-        times(self.vertical.as_ref(), self.horizontal.transpose())
+        self.vertical.as_ref() * self.horizontal.transpose()
     }
 
     /// What they leave of `s`.
@@ -83,12 +83,12 @@ impl Terms {
                 svd.values.get(i).map_or(0.0, |s| s * svd.right[(j, i)])
             })
         };
-        let core = times(scaled(&v).as_ref(), scaled(&h).transpose());
+        let core = scaled(&v).as_ref() * scaled(&h).transpose();
         let core = thin_svd(core.as_ref(), what)?;
         let mut svd = ThinSvd {
-            left: times(v.left.as_ref(), core.left.as_ref()),
+            left: &v.left * &core.left,
             values: core.values,
-            right: times(h.left.as_ref(), core.right.as_ref()),
+            right: &h.left * &core.right,
         };
         canonical(&mut svd);
         let mut terms = Self::of_svd(&svd, svd.values.len().min(self.rank()));
@@ -98,7 +98,8 @@ impl Terms {
 
     /// Each term with both sides of one length, largest first; the terms themselves are kept.
     pub(super) fn balanced(&self) -> Self {
-        let length = |side: &Mat<f64>, m: usize| norm_squared(side.as_ref().subcols(m, 1)).sqrt();
+        let length =
+            |side: &Mat<f64>, m: usize| side.as_ref().subcols(m, 1).squared_norm_l2().sqrt();
         let sizes: Vec<(f64, f64)> = (0..self.rank())
             .map(|m| (length(&self.vertical, m), length(&self.horizontal, m)))
             .collect();
@@ -216,7 +217,7 @@ fn choose_basis(svd: &mut ThinSvd, begin: usize, size: usize) {
     let mut rows = left.clone();
     for k in 0..size {
         let lengths: Vec<f64> =
-            (0..rows.nrows()).map(|i| norm_squared(rows.as_ref().subrows(i, 1))).collect();
+            (0..rows.nrows()).map(|i| rows.as_ref().subrows(i, 1).squared_norm_l2()).collect();
         let most = lengths.iter().copied().fold(0.0, f64::max);
         let Some(pivot) = lengths.iter().position(|l| *l >= (1.0 - 1e-6) * most) else { return };
         let root = lengths.get(pivot).map_or(0.0, |l| l.sqrt());
@@ -224,11 +225,10 @@ fn choose_basis(svd: &mut ThinSvd, begin: usize, size: usize) {
             return;
         }
         let weights = Mat::from_fn(size, 1, |c, _| rows[(pivot, c)] / root);
-        let (new_left, new_right) =
-            (times(left.as_ref(), weights.as_ref()), times(right.as_ref(), weights.as_ref()));
+        let (new_left, new_right) = (&left * &weights, &right * &weights);
         svd.left.col_mut(begin + k).copy_from(new_left.col(0));
         svd.right.col_mut(begin + k).copy_from(new_right.col(0));
-        let along = times(rows.as_ref(), weights.as_ref());
+        let along = &rows * &weights;
         rows =
             Mat::from_fn(rows.nrows(), size, |i, c| rows[(i, c)] - along[(i, 0)] * weights[(c, 0)]);
     }

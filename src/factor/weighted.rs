@@ -26,22 +26,19 @@ impl Weight {
     /// Any weight.
     ///
     /// # Errors
-    /// [`LowRankError::Mismatch`] unless there are `x.count · y.count` values;
+    /// [`LowRankError::Unusable`] unless there are `x.count · y.count` values;
     /// [`LowRankError::Setting`] if one is negative or not finite.
     pub fn new(x: &Axis, y: &Axis, values: Vec<f64>) -> Result<Self, LowRankError> {
         let expected = x.count.saturating_mul(y.count);
         if values.len() != expected {
-            return Err(LowRankError::Mismatch {
-                origin: "weight".into(),
-                what: format!("{} values, expected {expected}", values.len()),
-            });
+            let what = format!("{} values, expected {expected}", values.len());
+            return Err(LowRankError::unusable("weight", what));
         }
         match values.iter().find(|w| !(w.is_finite() && **w >= 0.0)) {
-            Some(bad) => Err(LowRankError::Setting {
-                name: "weight",
-                expected: "finite values that are not negative".into(),
-                got: bad.to_string(),
-            }),
+            Some(bad) => {
+                let expected = "finite values that are not negative";
+                Err(LowRankError::setting("weight", expected, bad.to_string()))
+            }
             None => Ok(Self { size: [x.count, y.count], values }),
         }
     }
@@ -79,7 +76,7 @@ impl Weight {
     /// √(Σ W (S − Ŝ)²/Σ W S²) per channel; 0 for a channel that is 0 under the weight.
     ///
     /// # Errors
-    /// [`LowRankError::Mismatch`] if table, weight and factors have different sizes or channels.
+    /// [`LowRankError::Unusable`] if table, weight and factors have different sizes or channels.
     pub fn relative_errors(
         &self,
         table: &Grid,
@@ -98,8 +95,8 @@ impl Weight {
 /// decomposition: never worse than it under the weight.
 ///
 /// # Errors
-/// As [`Grid::check_plane`]; [`LowRankError::Rank`]; [`LowRankError::Mismatch`] if the weight has another
-/// size than the table; [`LowRankError::NotConverged`].
+/// As [`Grid::check_plane`]; [`LowRankError::Rank`]; [`LowRankError::Unusable`] if the weight has another
+/// size than the table, or singular values do not converge.
 pub fn weighted(
     table: &Grid,
     alignment: Alignment,

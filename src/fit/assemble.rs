@@ -98,12 +98,8 @@ impl Assembly {
         Ok(assembly)
     }
 
-    /// The free constant, if any, that each `override` follows, and its value for given constants.
+    /// The value of an `override` for given constants.
     pub(super) fn value<T: Copy>(&self, index: usize, constants: &[T], fixed: fn(f64) -> T) -> T {
-        match self.origins.get(index) {
-            Some(Origin::Free(free)) => constants.get(*free).copied().unwrap_or(fixed(f64::NAN)),
-            Some(Origin::Fixed(value)) => fixed(*value),
-            None => fixed(f64::NAN),
-        }
+        self.origins.get(index).map_or(fixed(f64::NAN), |origin| origin.value(constants, fixed))
     }
 }

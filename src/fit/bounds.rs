@@ -23,18 +23,11 @@ const INSIDE: f64 = 1e-3;
 pub enum Transform {
     /// p = u.
     Identity,
-    /// p ≥ `bound`.
-    Above {
-        /// The lower bound.
+    /// p on one side of `bound`.
+    OneSided {
+        /// The bound.
         bound: f64,
-        /// Length s.
-        scale: f64,
-    },
-    /// p ≤ `bound`.
-    Below {
-        /// The upper bound.
-        bound: f64,
-        /// Length s.
+        /// Length s, negative below an upper bound.
         scale: f64,
     },
     /// `lower` ≤ p ≤ `upper`.
@@ -55,22 +48,20 @@ impl Transform {
         };
         match (bounds.lower, bounds.upper) {
             (None, None) => Self::Identity,
-            (Some(bound), None) => Self::Above { bound, scale: length(bound) },
-            (None, Some(bound)) => Self::Below { bound, scale: length(bound) },
+            (Some(bound), None) => Self::OneSided { bound, scale: length(bound) },
+            (None, Some(bound)) => Self::OneSided { bound, scale: -length(bound) },
             (Some(lower), Some(upper)) => Self::Between { lower, upper },
         }
     }
 
     /// u for a constant `p` within the bounds (moved inside if it lies on one).
     pub fn variable(&self, p: f64) -> f64 {
-        let one_sided = |distance: f64, scale: f64| {
-            let t = 1.0 + (distance / scale).max(INSIDE);
-            (t * t - 1.0).sqrt()
-        };
         match *self {
             Self::Identity => p,
-            Self::Above { bound, scale } => one_sided(p - bound, scale),
-            Self::Below { bound, scale } => one_sided(bound - p, scale),
+            Self::OneSided { bound, scale } => {
+                let t = 1.0 + ((p - bound) / scale).max(INSIDE);
+                (t * t - 1.0).sqrt()
+            }
             Self::Between { lower, upper } => {
                 let t = ((p - lower) / (upper - lower)).clamp(INSIDE, 1.0 - INSIDE);
                 (2.0 * t - 1.0).asin()
@@ -82,8 +73,7 @@ impl Transform {
     pub fn constant(&self, u: f64) -> f64 {
         match *self {
             Self::Identity => u,
-            Self::Above { bound, scale } => bound + scale * (u * u / (1.0 + u.hypot(1.0))),
-            Self::Below { bound, scale } => bound - scale * (u * u / (1.0 + u.hypot(1.0))),
+            Self::OneSided { bound, scale } => bound + scale * (u * u / (1.0 + u.hypot(1.0))),
             Self::Between { lower, upper } => {
                 (lower + (upper - lower) * 0.5 * (1.0 + u.sin())).clamp(lower, upper)
             }
@@ -94,8 +84,7 @@ impl Transform {
     pub fn slope(&self, u: f64) -> f64 {
         match *self {
             Self::Identity => 1.0,
-            Self::Above { scale, .. } => scale * u / u.hypot(1.0),
-            Self::Below { scale, .. } => -scale * u / u.hypot(1.0),
+            Self::OneSided { scale, .. } => scale * u / u.hypot(1.0),
             Self::Between { lower, upper } => 0.5 * (upper - lower) * u.cos(),
         }
     }
@@ -104,30 +93,22 @@ impl Transform {
     pub fn contains(&self, p: f64) -> bool {
         match *self {
             Self::Identity => true,
-            Self::Above { bound, .. } => p >= bound,
-            Self::Below { bound, .. } => p <= bound,
+            Self::OneSided { bound, scale } => (p - bound) * scale.signum() >= 0.0,
             Self::Between { lower, upper } => (lower..=upper).contains(&p),
         }
     }
 
-    /// The bound that `p` lies on or next to, within `tolerance` of the width, with the sign of the
-    /// way out: −1 for a lower bound, 1 for an upper one.
-    pub fn bound_at(&self, p: f64, tolerance: f64) -> Option<(f64, f64)> {
+    /// The bound that `p` lies on or next to, within `tolerance` of the width.
+    pub fn bound_at(&self, p: f64, tolerance: f64) -> Option<f64> {
         match *self {
             Self::Identity => None,
-            Self::Above { bound, scale } => {
-                (p - bound <= tolerance * scale).then_some((bound, -1.0))
-            }
-            Self::Below { bound, scale } => {
-                (bound - p <= tolerance * scale).then_some((bound, 1.0))
+            Self::OneSided { bound, scale } => {
+                ((p - bound) * scale.signum() <= tolerance * scale.abs()).then_some(bound)
             }
             Self::Between { lower, upper } => {
                 let reach = tolerance * (upper - lower);
-                if p - lower <= reach {
-                    Some((lower, -1.0))
-                } else {
-                    (upper - p <= reach).then_some((upper, 1.0))
-                }
+                let near = |bound: f64, inside: f64| (inside <= reach).then_some(bound);
+                near(lower, p - lower).or(near(upper, upper - p))
             }
         }
     }

@@ -15,14 +15,6 @@ pub enum FitError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// The text of a spec is not TOML, or has a key or a type that a spec has not.
-    #[error("{path}: {report}")]
-    Toml {
-        /// The spec.
-        path: String,
-        /// Line, column and excerpt.
-        report: String,
-    },
     /// A value in a spec makes no sense.
     #[error("{}: {key}: {what}", place(path, *line))]
     Spec {
@@ -59,12 +51,12 @@ pub enum FitError {
     /// The family could not be made.
     #[error(transparent)]
     Family(#[from] FamilyError),
-    /// A table cannot be fitted to.
-    #[error("{table}: {what}")]
-    Table {
-        /// Path or label of the table.
-        table: String,
-        /// Column, row, expected and got.
+    /// What cannot be fitted with: a text that is no spec, or a table.
+    #[error("{origin}: {what}")]
+    Unusable {
+        /// Path or label.
+        origin: String,
+        /// Where in it, expected and got.
         what: String,
     },
     /// A table could not be read, or a file not be written.

@@ -14,21 +14,6 @@ pub struct Linearisation {
     pub derivatives: Vec<Vec<f64>>,
 }
 
-/// A function of free constants, at fixed points.
-pub trait Model {
-    /// The values at every point.
-    ///
-    /// # Errors
-    /// [`FormError`] if the form cannot be evaluated, because a loop does not end, say.
-    fn values(&self, free: &[f64]) -> Result<Vec<f64>, FormError>;
-
-    /// The values and their exact derivatives.
-    ///
-    /// # Errors
-    /// As [`Model::values`].
-    fn linearise(&self, free: &[f64]) -> Result<Linearisation, FormError>;
-}
-
 /// Where the value of one `override` comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Origin {
@@ -36,6 +21,16 @@ pub enum Origin {
     Free(usize),
     /// A fixed value.
     Fixed(f64),
+}
+
+impl Origin {
+    /// The value for given free constants; not a number for one that is not among them.
+    pub(super) fn value<T: Copy>(self, free: &[T], of: fn(f64) -> T) -> T {
+        match self {
+            Self::Free(owner) => free.get(owner).copied().unwrap_or(of(f64::NAN)),
+            Self::Fixed(value) => of(value),
+        }
+    }
 }
 
 /// A [`Form`] at the points of a table: some of its output columns, all rows of the first before those of
@@ -85,18 +80,14 @@ impl<'a> FormModel<'a> {
 
     /// The value of every `override`, in the order of [`Form::parameters`].
     fn overrides(&self, free: &[f64]) -> Vec<f64> {
-        self.origins
-            .iter()
-            .map(|origin| match origin {
-                Origin::Free(owner) => free.get(*owner).copied().unwrap_or(f64::NAN),
-                Origin::Fixed(value) => *value,
-            })
-            .collect()
+        self.origins.iter().map(|origin| origin.value(free, |value| value)).collect()
     }
-}
 
-impl Model for FormModel<'_> {
-    fn values(&self, free: &[f64]) -> Result<Vec<f64>, FormError> {
+    /// The values at every point.
+    ///
+    /// # Errors
+    /// [`FormError`] if the form cannot be evaluated, because a loop does not end, say.
+    pub fn values(&self, free: &[f64]) -> Result<Vec<f64>, FormError> {
         let mut columns = Vec::new();
         let overrides = self.overrides(free);
         self.evaluator.borrow_mut().eval_into(&overrides, &self.inputs, &mut columns)?;
@@ -104,7 +95,11 @@ impl Model for FormModel<'_> {
         Ok(self.outputs.iter().flat_map(column).collect())
     }
 
-    fn linearise(&self, free: &[f64]) -> Result<Linearisation, FormError> {
+    /// The values and their exact derivatives.
+    ///
+    /// # Errors
+    /// As [`FormModel::values`].
+    pub fn linearise(&self, free: &[f64]) -> Result<Linearisation, FormError> {
         let mut kept = self.dual.borrow_mut();
         let (evaluator, dual) = &mut *kept;
         evaluator.eval_into(&self.overrides(free), &self.inputs, dual)?;

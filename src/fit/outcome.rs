@@ -5,13 +5,10 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// JSON has no NaN: it is written as null, in a fit whose status is `non_finite`.
-fn null_as_nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
-}
-
-/// [`null_as_nan`] for f32.
-fn null_as_nan_single<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f32, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f32::NAN))
+fn null_as_nan<'de, T: Deserialize<'de> + From<f32>, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<T, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f32::NAN.into()))
 }
 
 /// How a fit ended.
@@ -53,7 +50,7 @@ pub struct ParameterOutcome {
     #[serde(deserialize_with = "null_as_nan")]
     pub value: f64,
     /// What ships: refined in f32 so that the error of the shipped expression is minimal.
-    #[serde(deserialize_with = "null_as_nan_single")]
+    #[serde(deserialize_with = "null_as_nan")]
     pub f32: f32,
     /// Bits of `f32`, as in `0x3f295350`.
     pub f32_hex: String,

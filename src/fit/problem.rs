@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bounds::{Bounds, Transform};
 use super::loss::Loss;
-use super::model::Model;
+use super::model::FormModel;
 use crate::form::FormError;
 
 /// The best point that has been seen.
@@ -18,16 +18,17 @@ pub struct Best {
     pub cost: f64,
 }
 
-/// Residuals of a [`Model`] against a target, in one unbounded variable per free constant.
+/// Residuals of a [`FormModel`] against a target, in one unbounded variable per free constant.
 ///
 /// The constants in `pinned` keep their value; the others are the variables, in order. Every
 /// evaluation is counted and the best point is remembered, whatever the solver does with it.
 pub struct Problem<'a> {
-    model: &'a dyn Model,
+    model: &'a FormModel<'a>,
     target: &'a [f64],
-    factors: Vec<f64>,
-    loss: Loss,
-    transforms: Vec<Transform>,
+    pub(super) factors: Vec<f64>,
+    pub(super) loss: Loss,
+    /// One per free constant.
+    pub(super) transforms: Vec<Transform>,
     constants: Vec<f64>,
     active: Vec<usize>,
     evaluations: Cell<u64>,
@@ -38,7 +39,7 @@ impl<'a> Problem<'a> {
     /// `factors` multiply the residuals ([`super::loss::factors`]); `bounds` and `start` have one
     /// entry per free constant, the start within the bounds.
     pub fn new(
-        model: &'a dyn Model,
+        model: &'a FormModel<'a>,
         target: &'a [f64],
         factors: Vec<f64>,
         loss: Loss,
@@ -92,18 +93,6 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The loss.
-    pub fn loss(&self) -> Loss {
-        self.loss
-    }
-    /// The factors of the residuals.
-    pub fn factors(&self) -> &[f64] {
-        &self.factors
-    }
-    /// The transformations, one per free constant.
-    pub fn transforms(&self) -> &[Transform] {
-        &self.transforms
-    }
     /// Number of variables.
     pub fn variables(&self) -> usize {
         self.active.len()
@@ -132,12 +121,7 @@ impl<'a> Problem<'a> {
 
     /// The variables of the start.
     pub fn start(&self) -> DVector<f64> {
-        self.variables_of(&self.constants)
-    }
-
-    /// The variables of given constants.
-    pub fn variables_of(&self, constants: &[f64]) -> DVector<f64> {
-        let variable = |i: &usize| self.transforms[*i].variable(constants[*i]);
+        let variable = |i: &usize| self.transforms[*i].variable(self.constants[*i]);
         DVector::from_iterator(self.active.len(), self.active.iter().map(variable))
     }
 
@@ -178,7 +162,16 @@ impl<'a> Problem<'a> {
         &self,
         variables: &DVector<f64>,
     ) -> Result<(DVector<f64>, DMatrix<f64>), FormError> {
-        let (mut residuals, mut jacobian) = self.linearise_by_constants(variables)?;
+        self.evaluations.set(self.evaluations.get() + 1);
+        let mut linear = self.model.linearise(&self.constants(variables))?;
+        self.weigh(&mut linear.values);
+        self.remember(variables, self.loss.cost(&linear.values));
+        let mut entries = Vec::with_capacity(self.points() * self.variables());
+        for i in &self.active {
+            entries.extend(linear.derivatives[*i].iter().zip(&self.factors).map(|(d, f)| d * f));
+        }
+        let mut residuals = DVector::from_vec(linear.values);
+        let mut jacobian = DMatrix::from_vec(self.points(), self.variables(), entries);
         for (column, (i, u)) in self.active.iter().zip(variables.iter()).enumerate() {
             let slope = self.transforms[*i].slope(*u);
             if slope != 1.0 {
@@ -193,26 +186,6 @@ impl<'a> Problem<'a> {
             }
         }
         Ok((residuals, jacobian))
-    }
-
-    /// Residuals with their factors and their Jacobian by the constants that vary.
-    ///
-    /// # Errors
-    /// [`FormError`] from the model.
-    pub fn linearise_by_constants(
-        &self,
-        variables: &DVector<f64>,
-    ) -> Result<(DVector<f64>, DMatrix<f64>), FormError> {
-        self.evaluations.set(self.evaluations.get() + 1);
-        let mut linear = self.model.linearise(&self.constants(variables))?;
-        self.weigh(&mut linear.values);
-        self.remember(variables, self.loss.cost(&linear.values));
-        let mut entries = Vec::with_capacity(self.points() * self.variables());
-        for i in &self.active {
-            entries.extend(linear.derivatives[*i].iter().zip(&self.factors).map(|(d, f)| d * f));
-        }
-        let jacobian = DMatrix::from_vec(self.points(), self.variables(), entries);
-        Ok((DVector::from_vec(linear.values), jacobian))
     }
 
     fn weigh(&self, values: &mut [f64]) {

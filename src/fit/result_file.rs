@@ -3,51 +3,49 @@
 use std::path::Path;
 
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 
 use super::error::FitError;
 use super::outcome::{FamilyOutcome, Outcome};
-use super::run::FitResult;
 use crate::table::store::atomic_write;
 
 /// The version of the format that is written and read.
 const SCHEMA: u32 = 1;
 
-impl Outcome {
-    /// Reads a result of a single fit.
+/// The result of a spec.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FitResult {
+    /// One fit.
+    Single(Box<Outcome>),
+    /// One fit per member of a family.
+    Family(FamilyOutcome),
+}
+
+impl FitResult {
+    /// Reads a result; a family is told by its `members`.
     ///
     /// # Errors
     /// [`FitError::Io`], [`FitError::Result`] with line and column, [`FitError::Schema`].
     pub fn read(path: &Path) -> Result<Self, FitError> {
-        let outcome: Self = parse(path, &text(path)?)?;
-        require_schema(path, outcome.schema)?;
-        Ok(outcome)
+        let shown = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| FitError::Io { path: shown.clone(), source })?;
+        let result = Self::parse(&text)
+            .map_err(|source| FitError::Result { path: shown.clone(), source })?;
+        let got = match &result {
+            Self::Single(outcome) => outcome.schema,
+            Self::Family(family) => family.schema,
+        };
+        if got != SCHEMA {
+            return Err(FitError::Schema { path: shown, expected: SCHEMA, got });
+        }
+        Ok(result)
     }
-}
 
-impl FamilyOutcome {
-    /// Reads a result of a family.
-    ///
-    /// # Errors
-    /// As [`Outcome::read`].
-    pub fn read(path: &Path) -> Result<Self, FitError> {
-        let outcome: Self = parse(path, &text(path)?)?;
-        require_schema(path, outcome.schema)?;
-        Ok(outcome)
-    }
-}
-
-impl FitResult {
-    /// Reads either; a family is told by its `members`.
-    ///
-    /// # Errors
-    /// As [`Outcome::read`].
-    pub fn read(path: &Path) -> Result<Self, FitError> {
-        let value: serde_json::Value = parse(path, &text(path)?)?;
-        if value.get("members").is_some() {
-            Ok(Self::Family(FamilyOutcome::read(path)?))
-        } else {
-            Ok(Self::Single(Box::new(Outcome::read(path)?)))
+    fn parse(text: &str) -> Result<Self, serde_json::Error> {
+        let value: serde_json::Value = serde_json::from_str(text)?;
+        match value.get("members") {
+            Some(_) => serde_json::from_str(text).map(Self::Family),
+            None => serde_json::from_str(text).map(Self::Single),
         }
     }
 
@@ -104,21 +102,4 @@ fn family_json(family: &FamilyOutcome) -> Result<String, serde_json::Error> {
 
 fn field(name: &str, value: &impl Serialize) -> Result<String, serde_json::Error> {
     Ok(format!("  \"{name}\": {}", serde_json::to_string(value)?))
-}
-
-fn text(path: &Path) -> Result<String, FitError> {
-    std::fs::read_to_string(path)
-        .map_err(|source| FitError::Io { path: path.display().to_string(), source })
-}
-
-fn parse<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, FitError> {
-    serde_json::from_str(text)
-        .map_err(|source| FitError::Result { path: path.display().to_string(), source })
-}
-
-fn require_schema(path: &Path, schema: u32) -> Result<(), FitError> {
-    if schema == SCHEMA {
-        return Ok(());
-    }
-    Err(FitError::Schema { path: path.display().to_string(), expected: SCHEMA, got: schema })
 }

@@ -51,14 +51,8 @@ impl Shipped<'_> {
     /// # Errors
     /// [`FormError`] from the form.
     pub fn values(&self, constants: &[f32]) -> Result<Vec<f32>, FormError> {
-        let overrides: Vec<f32> = self
-            .origins
-            .iter()
-            .map(|origin| match origin {
-                Origin::Free(i) => constants.get(*i).copied().unwrap_or(f32::NAN),
-                Origin::Fixed(value) => *value as f32,
-            })
-            .collect();
+        let overrides = self.origins.iter().map(|origin| origin.value(constants, |v| v as f32));
+        let overrides: Vec<f32> = overrides.collect();
         let inputs: Vec<&[f32]> = self.inputs.iter().map(Vec::as_slice).collect();
         let columns = self.form.eval_f32(&overrides, &inputs)?;
         let column = |output: &usize| columns.get(*output).into_iter().flatten().copied();
@@ -87,8 +81,7 @@ impl Shipped<'_> {
     }
 }
 
-/// f32 constants for the optimum `constants`, and the passes over the points that it took;
-/// `jacobian` is that of the weighted residuals by the constants, at the optimum.
+/// f32 constants for the optimum `constants`; `jacobian` is that of the weighted residuals by the constants, at the optimum.
 ///
 /// # Errors
 /// [`FormError`] from the form.
@@ -96,11 +89,11 @@ pub fn round_to_f32(
     shipped: &Shipped,
     constants: &[f64],
     jacobian: &DMatrix<f64>,
-) -> Result<(Vec<f32>, u64), FormError> {
+) -> Result<Vec<f32>, FormError> {
     let nearest: Vec<f32> =
         constants.iter().enumerate().map(|(i, c)| nearest_allowed(shipped, i, *c)).collect();
     if constants.is_empty() {
-        return Ok((nearest, 0));
+        return Ok(nearest);
     }
     let budget = (POINT_BUDGET / shipped.target.len().max(1)).clamp(FEWEST, MOST);
     let mut used = 1;
@@ -141,7 +134,7 @@ pub fn round_to_f32(
             }
         }
     }
-    Ok((best, used as u64))
+    Ok(best)
 }
 
 /// The nearest f32, or its neighbour where that one is outside the bounds.

@@ -1,58 +1,29 @@
 //! From a spec to a result.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::assemble::Assembly;
+use super::context::Context;
 use super::error::FitError;
-use super::inherit::inherit;
 use super::loss::{Loss, factors};
-use super::model::{FormModel, Model, Origin};
+use super::model::{FormModel, Origin};
 use super::outcome::{
-    FamilyOutcome, FitProvenance, Outcome, ParameterOutcome, Residuals, StartOutcome, Status,
+    FamilyOutcome, FitProvenance, Outcome, ParameterOutcome, StartOutcome, Status,
 };
 use super::problem::Problem;
+use super::result_file::FitResult;
 use super::round_to_f32::{Shipped, round_to_f32};
 use super::solve::{Solution, Termination, solve_from, starts};
-use super::spec::{FormChoice, Spec, Target, Weighting};
-use super::statistics::equioscillations;
-use super::target::{Noise, Points, read_table};
-use super::worth::Worth;
+use super::spec::{FormChoice, SampledDomain, Spec, Target, Weighting};
+use super::statistics::{Worth, equioscillations};
+use super::target::{Noise, Points};
 use crate::effect::{Effect, Reference, ReferenceValues};
 use crate::form::Form;
-use crate::registry::Registry;
+use crate::table::Table;
 use crate::table::store::sha256_hex;
-
-/// Where a fit finds what its spec names: the project's folder, the registry, and values of
-/// references that several fits of a run share.
-#[derive(Debug)]
-pub struct Context {
-    /// The project's root: `fits/`, `data/measured` and relative paths of specs are below it.
-    pub root: PathBuf,
-    /// References, forms and families by name.
-    pub registry: Registry,
-    /// Values of references at fitted points.
-    pub values: ReferenceValues,
-}
-
-impl Context {
-    /// A context at `root` in which nothing has been evaluated.
-    pub fn new(root: impl Into<PathBuf>, registry: &Registry) -> Self {
-        Self { root: root.into(), registry: registry.clone(), values: ReferenceValues::default() }
-    }
-}
-
-/// The result of a spec.
-#[derive(Debug, Clone, PartialEq)]
-pub enum FitResult {
-    /// One fit.
-    Single(Box<Outcome>),
-    /// One fit per member of a family.
-    Family(FamilyOutcome),
-}
 
 /// Runs a spec. The result is the same to the byte for every number of threads.
 ///
@@ -61,66 +32,26 @@ pub enum FitResult {
 /// converge is not an error: see [`Status`].
 pub fn run_spec(spec: &Spec, context: &Context) -> Result<FitResult, FitError> {
     spec.check()?;
-    let form = load_form(spec, context)?;
-    let spec = &inherit(spec, &form, context)?;
+    let form = context.form(&spec.form)?;
+    let spec = &context.inherit(spec, &form)?;
     let fit = Fit::new(spec, &form)?;
-    match &spec.target {
-        Target::Reference(name) => {
-            let (effect, reference) = context.registry.reference(name).ok_or_else(|| {
-                unknown("reference", name, context.registry.references().map(|r| r.name))
-            })?;
-            let points = match &spec.region {
-                Some(region) => fit.points_in(reference, effect, region, &context.values)?,
-                None => fit.points_of(reference, &spec.domain, "domain")?,
-            };
-            let mut outside = BTreeMap::new();
-            for (region, domain) in &spec.outside {
-                let points = fit.points_of(reference, domain, &format!("outside.{region}"))?;
-                outside.insert(region.clone(), points);
-            }
-            fit.single(&spec.name, reference.name, &points, &outside)
-        }
+    let (label, points, outside) = match &spec.target {
+        Target::Family(name) => return fit.family(name, context),
+        Target::Reference(name) => fit.of_reference(name, context)?,
         Target::File { path, column, weight } => {
-            let table = read_table(&context.root, path)?;
-            let label = path.display().to_string();
-            fit.table(&label, &table, column, weight)
+            let table = Table::read_csv(context.root.join(path))?;
+            fit.of_table(&path.display().to_string(), &table, column, weight)?
         }
-        Target::Table { label, table, column, weight } => fit.table(label, table, column, weight),
-        Target::Family(name) => fit.family(name, context),
-    }
+        Target::Table { label, table, column, weight } => {
+            fit.of_table(label, table, column, weight)?
+        }
+    };
+    let outcome = fit.outcome(&spec.name, &label, &points, &outside)?;
+    Ok(FitResult::Single(Box::new(outcome)))
 }
 
-/// Loads the form of a spec.
-///
-/// # Errors
-/// [`FitError::Unknown`], [`FitError::Io`] or [`FitError::Form`].
-pub fn load_form(spec: &Spec, context: &Context) -> Result<Form, FitError> {
-    match &spec.form {
-        FormChoice::Registered(name) => {
-            let registry = &context.registry;
-            let entry = registry
-                .form(name)
-                .ok_or_else(|| unknown("form", name, registry.forms().map(|f| &f.name)))?;
-            Ok(entry.load()?)
-        }
-        FormChoice::File { path, function } => {
-            let origin = path.display().to_string();
-            let source = std::fs::read_to_string(context.root.join(path))
-                .map_err(|source| FitError::Io { path: origin.clone(), source })?;
-            Ok(Form::parse(&origin, &source, function)?)
-        }
-        FormChoice::Text { origin, source, function } => Ok(Form::parse(origin, source, function)?),
-    }
-}
-
-fn unknown<N: AsRef<str>>(
-    kind: &'static str,
-    name: &str,
-    known: impl Iterator<Item = N>,
-) -> FitError {
-    let known: Vec<String> = known.map(|name| name.as_ref().to_owned()).collect();
-    FitError::Unknown { kind, name: name.to_owned(), known: known.join(", ") }
-}
+/// Name of what is fitted to, the points, and those of the regions beyond them.
+type Aims = (String, Points, BTreeMap<String, Points>);
 
 /// A spec with its form and its parameters.
 struct Fit<'a> {
@@ -159,13 +90,22 @@ impl<'a> Fit<'a> {
         Ok(vec![output.ok_or_else(wrong)?])
     }
 
-    fn points_of(
-        &self,
-        reference: &'static Reference,
-        domain: &super::spec::SampledDomain,
-        key: &str,
-    ) -> Result<Points, FitError> {
-        Points::of_reference(self.spec, reference, &self.inputs, domain, key)
+    /// The points of a reference, by the name of what is fitted to, and those beyond them.
+    fn of_reference(&self, name: &str, context: &Context) -> Result<Aims, FitError> {
+        let Self { spec, inputs, .. } = self;
+        let (effect, reference) = context.reference(name)?;
+        let sampled = |domain: &SampledDomain, key: &str| {
+            Points::of_reference(spec, reference, inputs, domain, key)
+        };
+        let points = match &spec.region {
+            Some(region) => self.points_in(reference, effect, region, &context.values)?,
+            None => sampled(&spec.domain, "domain")?,
+        };
+        let beyond = |(region, domain): (&String, &SampledDomain)| {
+            Ok((region.clone(), sampled(domain, &format!("outside.{region}"))?))
+        };
+        let outside = spec.outside.iter().map(beyond).collect::<Result<_, FitError>>()?;
+        Ok((reference.name.to_owned(), points, outside))
     }
 
     /// The points that `region` of `effect` gives to fits.
@@ -190,33 +130,21 @@ impl<'a> Fit<'a> {
         Points::of_region(name, &points(), reference, values, &self.inputs, self.spec.loss)
     }
 
-    fn single(
-        &self,
-        name: &str,
-        target: &str,
-        points: &Points,
-        outside: &BTreeMap<String, Points>,
-    ) -> Result<FitResult, FitError> {
-        Ok(FitResult::Single(Box::new(self.outcome(name, target, points, outside)?)))
-    }
-
-    fn table(
+    /// The rows of a measured table.
+    fn of_table(
         &self,
         label: &str,
-        table: &crate::table::Table,
+        table: &Table,
         column: &str,
         weight: &Weighting,
-    ) -> Result<FitResult, FitError> {
+    ) -> Result<Aims, FitError> {
         let (loss, noise) = (self.spec.loss, Noise::Measured);
         let points = Points::of_table(label, table, &self.inputs, column, weight, loss, noise)?;
-        self.single(&self.spec.name, label, &points, &BTreeMap::new())
+        Ok((label.to_owned(), points, BTreeMap::new()))
     }
 
     fn family(&self, name: &str, context: &Context) -> Result<FitResult, FitError> {
-        let registry = &context.registry;
-        let (_, family) = registry
-            .family(name)
-            .ok_or_else(|| unknown("family", name, registry.families().map(|f| f.name)))?;
+        let family = context.family(name)?;
         let members = (family.members)(&context.root.join("data/measured"), false)?;
         let outcomes: Vec<Outcome> = members
             .par_iter()
@@ -275,7 +203,7 @@ impl<'a> Fit<'a> {
         let (spec, assembly) = (self.spec, &self.assembly);
         points.require_rows(assembly.free.len())?;
         let outputs = self.outputs(points)?;
-        let model = self.model(points, &outputs)?;
+        let model = FormModel::new(self.form, &points.columns, &outputs, &assembly.origins)?;
         let factors = factors(spec.loss, &points.target, points.weights.as_deref());
         let solutions = self.solutions(points, &outputs, &factors)?;
         let evaluations = solutions.iter().map(|(_, s)| s.evaluations).sum();
@@ -305,15 +233,14 @@ impl<'a> Fit<'a> {
             loss: spec.loss,
             bounds: &assembly.bounds,
         };
-        let (constants_single, _) = round_to_f32(&shipped, &solution.constants, &jacobian)?;
+        let constants_single = round_to_f32(&shipped, &solution.constants, &jacobian)?;
         let scale =
             points.target.iter().zip(&factors).map(|(t, f)| (t * f).abs()).fold(0.0, f64::max);
         let worth = Worth::new(spec.loss, points, &solution, &jacobian, &residuals, scale);
         let finite = solution.constants.iter().chain(&linear.values).all(|x| x.is_finite());
         let parameters = self.parameters(&start, &solution, &constants_single, &worth);
         let measured = |values: &[f32], points: &Points| {
-            let values: Vec<f64> = values.iter().map(|v| f64::from(*v)).collect();
-            Residuals::measure(&points.columns, &points.names, &values, &points.target)
+            points.residuals(&values.iter().map(|v| f64::from(*v)).collect::<Vec<f64>>())
         };
         let mut beyond = BTreeMap::new();
         for (region, points) in outside {
@@ -330,37 +257,23 @@ impl<'a> Fit<'a> {
             form: self.form_name(),
             function: self.form.function().to_owned(),
             target: target.to_owned(),
-            status: status(&solution, finite, worth.covariance.condition.is_none()),
+            status: status(&solution, finite, worth.covariance.is_none()),
             solver: solution.solver.clone(),
             loss: spec.loss.name().to_owned(),
             iterations: solution.iterations,
             evaluations,
             parameters,
-            correlation: worth.covariance.correlation.clone(),
+            correlation: worth.covariance.as_ref().map(|of| of.correlation.clone()),
             correlation_order: worth.varying.iter().map(|i| assembly.free[*i].clone()).collect(),
-            condition: worth.covariance.condition,
+            condition: worth.covariance.as_ref().map(|of| of.condition),
             equioscillations: (spec.loss == Loss::Minimax && points.columns.len() == 1)
                 .then(|| equioscillations(&points.columns[0], residuals.as_slice())),
-            residuals: Residuals::measure(
-                &points.columns,
-                &points.names,
-                &linear.values,
-                &points.target,
-            ),
+            residuals: points.residuals(&linear.values),
             residuals_f32: measured(&shipped.values(&constants_single)?, points),
             outside: beyond,
             starts: start_outcomes,
             provenance: self.provenance(points.fingerprint(self.form.source())),
         })
-    }
-
-    fn model<'p>(
-        &'p self,
-        points: &'p Points,
-        outputs: &'p [usize],
-    ) -> Result<FormModel<'p>, FitError> {
-        let origins = &self.assembly.origins;
-        Ok(FormModel::new(self.form, &points.columns, outputs, origins)?)
     }
 
     /// The solution from each start, in order.
@@ -374,7 +287,7 @@ impl<'a> Fit<'a> {
         starts(&assembly.start, &assembly.bounds, spec.multi_start, spec.seed)
             .into_par_iter()
             .map(|start| {
-                let model = self.model(points, outputs)?;
+                let model = FormModel::new(self.form, &points.columns, outputs, &assembly.origins)?;
                 let problem = Problem::new(
                     &model,
                     &points.target,

@@ -1,10 +1,13 @@
 //! Exact sampling of a domain: pieces per argument, tensor product over arguments.
 
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::{Deserialize, Deserializer, de};
+
 /// Most points of a piece, and of a tensor product; more is a mistake.
 pub const MOST_POINTS: usize = 5_000_000;
 
 /// How the points of a piece are spaced.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Spacing {
     /// Equal differences, both ends included.
@@ -17,7 +20,7 @@ pub enum Spacing {
 }
 
 /// A run of points from `from` to `to`.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
     /// First point.
@@ -104,6 +107,34 @@ impl Sampling {
                 all
             }
         }
+    }
+}
+
+/// Written out by hand in place of an untagged enum, whose errors name neither key nor line.
+impl<'de> Deserialize<'de> for Sampling {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl<'de> de::Visitor<'de> for Visitor {
+            type Value = Sampling;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("a number, { from, to, count, spacing } or a list of these")
+            }
+            fn visit_f64<E>(self, value: f64) -> Result<Sampling, E> {
+                Ok(Sampling::Constant(value))
+            }
+            fn visit_i64<E>(self, value: i64) -> Result<Sampling, E> {
+                Ok(Sampling::Constant(value as f64))
+            }
+            fn visit_map<A: de::MapAccess<'de>>(self, map: A) -> Result<Sampling, A::Error> {
+                let piece = Piece::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(Sampling::Pieces(vec![piece]))
+            }
+            fn visit_seq<A: de::SeqAccess<'de>>(self, seq: A) -> Result<Sampling, A::Error> {
+                Ok(Sampling::Pieces(Vec::deserialize(SeqAccessDeserializer::new(seq))?))
+            }
+        }
+        deserializer.deserialize_any(Visitor)
     }
 }
 

@@ -4,6 +4,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use toml::de::DeTable;
+
 use super::error::FitError;
 use super::loss::Loss;
 use super::sampling::Sampling;
@@ -13,7 +15,7 @@ use crate::table::Table;
 /// Largest budget of a solver; more is a mistake.
 const MOST_ITERATIONS: u64 = 1_000_000;
 /// Most starts; more is a mistake.
-const MOST_STARTS: usize = 10_000;
+const MOST_STARTS: u64 = 10_000;
 
 /// Which form.
 #[derive(Debug, Clone, PartialEq)]
@@ -185,16 +187,11 @@ impl Spec {
     /// [`FitError::Spec`] naming the key: a domain or bounds without width, a start outside its
     /// bounds, numbers that are not finite, counts of 0, a parameter tied to one that is tied.
     pub fn check(&self) -> Result<(), FitError> {
-        for (region, domain) in std::iter::once((None, &self.domain))
-            .chain(self.outside.iter().map(|(n, d)| (Some(n), d)))
-        {
+        let outside = self.outside.iter().map(|(name, d)| (format!("outside.{name}"), d));
+        for (key, domain) in [("domain".to_owned(), &self.domain)].into_iter().chain(outside) {
             for (argument, axis) in domain {
                 if let Some(fault) = axis_fault(axis) {
-                    let key = region.map_or_else(
-                        || format!("domain.{argument}"),
-                        |region| format!("outside.{region}.{argument}"),
-                    );
-                    return Err(self.fault(&key, fault));
+                    return Err(self.fault(&format!("{key}.{argument}"), fault));
                 }
             }
         }
@@ -203,13 +200,13 @@ impl Spec {
         {
             return Err(self.fault("loss.scale", format!("expected a number > 0, got {scale}")));
         }
-        if !(1..=MOST_ITERATIONS).contains(&self.max_iterations) {
-            let what = format!("expected 1 to {MOST_ITERATIONS}, got {}", self.max_iterations);
-            return Err(self.fault("solver.max_iterations", what));
-        }
-        if !(1..=MOST_STARTS).contains(&self.multi_start) {
-            let what = format!("expected 1 to {MOST_STARTS}, got {}", self.multi_start);
-            return Err(self.fault("solver.multi_start", what));
+        for (key, most, got) in [
+            ("solver.max_iterations", MOST_ITERATIONS, self.max_iterations),
+            ("solver.multi_start", MOST_STARTS, self.multi_start as u64),
+        ] {
+            if !(1..=most).contains(&got) {
+                return Err(self.fault(key, format!("expected 1 to {most}, got {got}")));
+            }
         }
         for (name, choice) in &self.parameters {
             if let Some((key, fault)) = self.parameter_fault(choice) {
@@ -230,23 +227,20 @@ impl Spec {
                 _ => None,
             },
             ParameterChoice::Free { start, lower, upper } => {
-                for (key, value) in [(".start", start), (".lower", lower), (".upper", upper)] {
-                    if let Some(value) = value
-                        && !value.is_finite()
-                    {
-                        return Some((key, format!("expected a finite number, got {value}")));
-                    }
+                let numbers = [(".start", start), (".lower", lower), (".upper", upper)];
+                let given = numbers.into_iter().filter_map(|(key, value)| Some((key, (*value)?)));
+                if let Some((key, value)) = given.into_iter().find(|(_, value)| !value.is_finite())
+                {
+                    return Some((key, format!("expected a finite number, got {value}")));
                 }
                 if let (Some(lower), Some(upper)) = (lower, upper)
                     && lower >= upper
                 {
-                    return Some((
-                        "",
-                        format!(
-                            "expected lower < upper, got {lower} and {upper}: the bounds have no \
-                             width (use `fixed`)"
-                        ),
-                    ));
+                    let what = format!(
+                        "expected lower < upper, got {lower} and {upper}: the bounds have no width \
+                         (use `fixed`)"
+                    );
+                    return Some(("", what));
                 }
                 start.and_then(|start| start_fault(start, *lower, *upper)).map(|f| (".start", f))
             }
@@ -287,38 +281,16 @@ fn axis_fault(axis: &Sampling) -> Option<String> {
 
 /// The line, from 1, of `section.key…` in a TOML text; of the section if the key is not found.
 fn line_of(text: &str, key: &str) -> Option<usize> {
-    let mut parts = key.split('.');
-    let first = parts.next()?;
-    let second = parts.next();
-    let names = |line: &str, name: &str| {
-        let line = line.trim_start();
-        line.strip_prefix(name).is_some_and(|rest| {
-            rest.trim_start().starts_with(['=', '.']) || rest.trim_start().starts_with(']')
-        })
-    };
-    let mut section_line = None;
-    let mut inside = false;
-    for (index, line) in text.lines().enumerate() {
-        if let Some(header) = line.trim_start().strip_prefix('[') {
-            inside = names(header, first);
-            if inside {
-                section_line.get_or_insert(index + 1);
-                let inner =
-                    header.trim_start().strip_prefix(first).and_then(|r| r.strip_prefix('.'));
-                if let (Some(inner), Some(second)) = (inner, second)
-                    && names(inner, second)
-                {
-                    return Some(index + 1);
-                }
-            }
-        } else {
-            let wanted = if inside { second } else { section_line.is_none().then_some(first) };
-            if wanted.is_some_and(|wanted| names(line, wanted)) {
-                return Some(index + 1);
-            }
-        }
+    let document = DeTable::parse(text).ok()?;
+    let mut table = Some(document.get_ref());
+    let mut found = None;
+    for part in key.split('.').take(2) {
+        let entry = table.and_then(|table| table.iter().find(|(name, _)| name.get_ref() == part));
+        let Some((name, value)) = entry else { break };
+        found = Some(name.span().start);
+        table = value.get_ref().as_table();
     }
-    section_line
+    found.map(|start| 1 + text.bytes().take(start).filter(|byte| *byte == b'\n').count())
 }
 
 #[cfg(test)]

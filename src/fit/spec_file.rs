@@ -7,7 +7,6 @@ use serde::Deserialize;
 
 use super::error::FitError;
 use super::loss::Loss;
-use super::sampling::{Piece, Sampling};
 use super::solve::SolverKind;
 use super::spec::{FormChoice, ParameterChoice, SampledDomain, Spec, Target, Unnamed, Weighting};
 
@@ -25,7 +24,7 @@ struct SpecFile {
     column: Option<String>,
     weight: Option<String>,
     #[serde(default)]
-    domain: BTreeMap<String, AxisFile>,
+    domain: SampledDomain,
     region: Option<String>,
     #[serde(default)]
     constants: Vec<String>,
@@ -36,45 +35,7 @@ struct SpecFile {
     #[serde(default)]
     parameters: BTreeMap<String, ParameterFile>,
     #[serde(default)]
-    outside: BTreeMap<String, BTreeMap<String, AxisFile>>,
-}
-
-/// Written out by hand in place of an untagged enum, whose errors name neither key nor line.
-#[derive(Debug)]
-struct AxisFile(Sampling);
-
-impl<'de> Deserialize<'de> for AxisFile {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Visitor;
-        impl<'de> serde::de::Visitor<'de> for Visitor {
-            type Value = AxisFile;
-
-            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-                f.write_str("a number, { from, to, count, spacing } or a list of these")
-            }
-            fn visit_f64<E>(self, value: f64) -> Result<AxisFile, E> {
-                Ok(AxisFile(Sampling::Constant(value)))
-            }
-            fn visit_i64<E>(self, value: i64) -> Result<AxisFile, E> {
-                Ok(AxisFile(Sampling::Constant(value as f64)))
-            }
-            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<AxisFile, A::Error> {
-                let piece = Piece::deserialize(serde::de::value::MapAccessDeserializer::new(map))?;
-                Ok(AxisFile(Sampling::Pieces(vec![piece])))
-            }
-            fn visit_seq<A: serde::de::SeqAccess<'de>>(
-                self,
-                mut seq: A,
-            ) -> Result<AxisFile, A::Error> {
-                let mut pieces = Vec::new();
-                while let Some(piece) = seq.next_element()? {
-                    pieces.push(piece);
-                }
-                Ok(AxisFile(Sampling::Pieces(pieces)))
-            }
-        }
-        deserializer.deserialize_any(Visitor)
-    }
+    outside: BTreeMap<String, SampledDomain>,
 }
 
 #[derive(Deserialize, Default)]
@@ -141,12 +102,12 @@ impl Spec {
     /// The spec called `name` in `text`; `origin` names the file in errors.
     ///
     /// # Errors
-    /// [`FitError::Toml`] for a text that is not TOML, an unknown key or a wrong type;
+    /// [`FitError::Unusable`] for a text that is not TOML, an unknown key or a wrong type;
     /// [`FitError::Spec`] for values that make no sense ([`Spec::check`]).
     pub fn parse(origin: &str, name: &str, text: &str) -> Result<Self, FitError> {
-        let file: SpecFile = toml::from_str(text).map_err(|error| FitError::Toml {
-            path: origin.to_owned(),
-            report: error.to_string().trim_end().to_owned(),
+        let file: SpecFile = toml::from_str(text).map_err(|error| FitError::Unusable {
+            origin: origin.to_owned(),
+            what: error.to_string().trim_end().to_owned(),
         })?;
         let mut spec = Self::ad_hoc(
             name,
@@ -171,19 +132,10 @@ impl Spec {
         for (parameter, choice) in &file.parameters {
             spec.parameters.insert(parameter.clone(), choice_of(&spec, parameter, choice)?);
         }
-        let axes = |axes: BTreeMap<String, AxisFile>| -> SampledDomain {
-            axes.into_iter().map(|(argument, axis)| (argument, axis.0)).collect()
-        };
-        spec.description = file.description;
-        spec.output = file.output;
-        spec.region = file.region;
-        spec.constants = file.constants;
-        spec.domain = axes(file.domain);
-        spec.outside = file.outside.into_iter().map(|(name, d)| (name, axes(d))).collect();
-        spec.solver = file.solver.kind;
-        spec.max_iterations = file.solver.max_iterations;
-        spec.multi_start = file.solver.multi_start;
-        spec.seed = file.solver.seed;
+        let SolverFile { kind: solver, max_iterations, multi_start, seed } = file.solver;
+        let SpecFile { description, output, region, constants, domain, outside, .. } = file;
+        spec = Self { description, output, region, constants, domain, outside, ..spec };
+        spec = Self { solver, max_iterations, multi_start, seed, ..spec };
         spec.check()?;
         Ok(spec)
     }

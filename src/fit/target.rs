@@ -1,9 +1,8 @@
 //! The points and values that a form is fitted to.
 
-use std::path::Path;
-
 use super::error::FitError;
 use super::loss::Loss;
+use super::outcome::Residuals;
 use super::sampling::{MOST_POINTS, tensor_product};
 use super::spec::{SampledDomain, Spec, Weighting};
 use crate::effect::{NoValue, Reference, ReferenceValues};
@@ -85,9 +84,7 @@ impl Points {
             columns.iter().take(reference.arguments.len()).map(Vec::as_slice).collect();
         let target = match arguments.is_empty() {
             true => Vec::new(),
-            false => reference.over(&arguments).map_err(|NoValue { source, .. }| {
-                FitError::Domain { reference: reference.name.to_owned(), source }
-            })?,
+            false => reference.over(&arguments).map_err(|error| outside(reference, error))?,
         };
         let column_of = |input: &String| {
             let index = names.iter().position(|name| name == input);
@@ -109,7 +106,7 @@ impl Points {
     /// `reference` at the points of a region, rounded to f32; a column `weight` holds weights.
     ///
     /// # Errors
-    /// [`FitError::Table`] for a column that is not there and for numbers that are not finite;
+    /// [`FitError::Unusable`] for a column that is not there and for numbers that are not finite;
     /// [`FitError::Domain`] where the reference has no value.
     pub fn of_region(
         region: &'static str,
@@ -130,10 +127,7 @@ impl Points {
             .collect::<Result<Vec<_>, _>>()?;
         let target = values
             .at(reference, region, &columns)
-            .map_err(|NoValue { source, .. }| FitError::Domain {
-                reference: reference.name.to_owned(),
-                source,
-            })?
+            .map_err(|error| outside(reference, error))?
             .to_vec();
         let rows = table.rows().max(1);
         let names: Vec<String> =
@@ -151,7 +145,7 @@ impl Points {
     /// The rows of a table: the form's `inputs` and `column` are among its columns.
     ///
     /// # Errors
-    /// [`FitError::Data`] for a column that is not there, [`FitError::Table`] for numbers that are
+    /// [`FitError::Data`] for a column that is not there, [`FitError::Unusable`] for numbers that are
     /// not finite and weights that make no sense, by row.
     pub fn of_table(
         label: &str,
@@ -163,10 +157,9 @@ impl Points {
         noise: Noise,
     ) -> Result<Self, FitError> {
         let named = |name: &str| -> Result<Vec<f64>, FitError> {
-            let column = table.column(name).ok_or_else(|| FitError::Table {
-                table: label.to_owned(),
-                what: format!("there is no column `{name}`; it has {}", table.names().join(", ")),
-            })?;
+            let lacking =
+                || format!("there is no column `{name}`; it has {}", table.names().join(", "));
+            let column = table.column(name).ok_or_else(|| unusable(label, lacking()))?;
             Ok(column.values.clone())
         };
         // `y,z`: a target for each of several outputs.
@@ -181,10 +174,8 @@ impl Points {
                 let of = |name: &&str| table.column(name)?.uncertainty.as_ref();
                 let known: Vec<&Vec<f64>> = targets.iter().filter_map(of).collect();
                 if !known.is_empty() && known.len() != targets.len() {
-                    return Err(FitError::Table {
-                        table: label.to_owned(),
-                        what: format!("some of {column} have an uncertainty and some have none"),
-                    });
+                    let what = format!("some of {column} have an uncertainty and some have none");
+                    return Err(unusable(label, what));
                 }
                 let weight = |u: &&Vec<f64>| u.iter().map(|u| 1.0 / (u * u)).collect();
                 let name = format!("u({column}), as weight");
@@ -207,27 +198,26 @@ impl Points {
                 return Err(points.fault(row, name, &what));
             }
             if values.iter().all(|w| *w == 0.0) {
-                return Err(FitError::Table {
-                    table: label.to_owned(),
-                    what: format!("column `{name}`: every weight is 0"),
-                });
+                return Err(unusable(label, format!("column `{name}`: every weight is 0")));
             }
         }
         points.check(loss)?;
         Ok(points)
     }
 
+    /// Residuals of `values` against the target.
+    pub fn residuals(&self, values: &[f64]) -> Residuals {
+        Residuals::measure(&self.columns, &self.names, values, &self.target)
+    }
+
     /// Numbers that cannot be fitted to.
     fn check(&self, loss: Loss) -> Result<(), FitError> {
-        for (name, column) in self.names.iter().zip(&self.columns) {
+        let inputs = self.names.iter().map(String::as_str).zip(&self.columns);
+        for (name, column) in inputs.chain([("target", &self.target)]) {
             if let Some(row) = column.iter().position(|x| !x.is_finite()) {
                 let what = format!("expected a finite number, got {}", column[row]);
                 return Err(self.fault(row, name, &what));
             }
-        }
-        if let Some(row) = self.target.iter().position(|x| !x.is_finite()) {
-            let what = format!("expected a finite number, got {}", self.target[row]);
-            return Err(self.fault(row, "target", &what));
         }
         if loss == Loss::Relative
             && let Some(row) = self.target.iter().position(|x| *x == 0.0)
@@ -238,29 +228,22 @@ impl Points {
     }
 
     fn fault(&self, row: usize, column: &str, what: &str) -> FitError {
-        FitError::Table {
-            table: self.label.clone(),
-            what: format!("row {}, column `{column}`: {what}", row % self.rows().max(1) + 1),
-        }
-    }
-
-    fn rows(&self) -> usize {
-        self.target.len() / self.outputs.max(1)
+        let rows = self.target.len() / self.outputs.max(1);
+        let row = row % rows.max(1) + 1;
+        unusable(&self.label, format!("row {row}, column `{column}`: {what}"))
     }
 
     /// Checks that there are at least as many rows as free parameters.
     ///
     /// # Errors
-    /// [`FitError::Table`] with both numbers.
+    /// [`FitError::Unusable`] with both numbers.
     pub fn require_rows(&self, free: usize) -> Result<(), FitError> {
         let rows = self.target.len();
         if rows >= free.max(1) {
             return Ok(());
         }
-        Err(FitError::Table {
-            table: self.label.clone(),
-            what: format!("{free} free parameters need at least as many rows, got {rows}"),
-        })
+        let what = format!("{free} free parameters need at least as many rows, got {rows}");
+        Err(unusable(&self.label, what))
     }
 
     /// SHA-256 over the numbers and the text of the form.
@@ -272,10 +255,10 @@ impl Points {
     }
 }
 
-/// A table read from a CSV file, relative to `root` unless absolute.
-///
-/// # Errors
-/// [`FitError::Data`] naming file, line and column.
-pub fn read_table(root: &Path, path: &Path) -> Result<Table, FitError> {
-    Ok(Table::read_csv(root.join(path))?)
+fn unusable(origin: &str, what: String) -> FitError {
+    FitError::Unusable { origin: origin.to_owned(), what }
+}
+
+fn outside(reference: &Reference, NoValue { source, .. }: NoValue) -> FitError {
+    FitError::Domain { reference: reference.name.to_owned(), source }
 }

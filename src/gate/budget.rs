@@ -22,7 +22,7 @@ pub struct Gate {
     pub precision: Precision,
     /// Over which points; absent means the region that the fit itself was made on.
     pub domain: Option<Domain>,
-    /// Largest value accepted: finite, > 0, in the metric's unit.
+    /// Largest value accepted, of [`Metric::Chi2P`] the smallest: finite, > 0, in the metric's unit.
     pub limit: f64,
     /// The number measured when the limit was set, where it is recorded.
     #[serde(rename = "recorded")]
@@ -39,7 +39,8 @@ pub struct Gate {
     pub line: usize,
 }
 
-/// What a gate measures of the errors, form minus target.
+/// What a gate measures of the errors, form minus target; of a form that draws from a distribution, of
+/// its draws: `mean_z`, `variance_ratio` and `chi2_p`, and nothing else.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Metric {
@@ -65,11 +66,20 @@ pub enum Metric {
     /// Largest distance, in units in the last place of f32, between a constant in the shipped file
     /// and the fitted one.
     Drift,
+    /// Mean of the draws less that of the distribution, in its standard errors: the largest magnitude at
+    /// any point. That of fair draws is below 4 at most and above it at 1 point of 16 000.
+    MeanZ,
+    /// Variance of the draws over that of the distribution, or its inverse: the largest at any point,
+    /// 1 or above.
+    VarianceRatio,
+    /// Probability that fair draws are as far from their probabilities at any point (χ², corrected for the
+    /// number of points by Šidák's rule): the gate fails below its limit, and above it for no other metric.
+    Chi2P,
 }
 
 impl Metric {
     /// Every metric with its name in the file, in the order of the documentation.
-    pub const ALL: [(&str, Self); 10] = [
+    pub const ALL: [(&str, Self); 13] = [
         ("max_abs", Self::MaxAbs),
         ("rms", Self::Rms),
         ("bias", Self::Bias),
@@ -80,11 +90,25 @@ impl Metric {
         ("rel_l2", Self::RelL2),
         ("flip", Self::Flip),
         ("drift", Self::Drift),
+        ("mean_z", Self::MeanZ),
+        ("variance_ratio", Self::VarianceRatio),
+        ("chi2_p", Self::Chi2P),
     ];
 
     /// Name in the file.
     pub fn name(self) -> &'static str {
         Self::ALL.iter().find(|(_, metric)| *metric == self).map_or("", |(name, _)| name)
+    }
+
+    /// Whether it is measured of draws from a distribution.
+    pub(super) fn of_draws(self) -> bool {
+        matches!(self, Self::MeanZ | Self::VarianceRatio | Self::Chi2P)
+    }
+
+    /// Whether `value` is worse than `than`: larger, of a probability smaller. What is not a number is
+    /// worse than anything.
+    pub(super) fn worse(self, value: f64, than: f64) -> bool {
+        value.is_nan() || if self == Self::Chi2P { value < than } else { value > than }
     }
 }
 

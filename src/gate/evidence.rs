@@ -81,6 +81,7 @@ impl<'r> Evidence<'r> {
                 Metric::Drift => GroundTruth::none(),
                 _ => self.target(gate, &standing, label, candidate)?,
             };
+            gate.fits(&target)?;
             instances.push(Instance {
                 label: (!label.is_empty()).then(|| label.clone()),
                 candidate: (*candidate).clone(),

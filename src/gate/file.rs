@@ -119,11 +119,16 @@ impl Reading<'_> {
         let limit = *raw.limit.get_ref();
         let message = format!("expected a finite number > 0, got {limit}");
         self.ensure(limit.is_finite() && limit > 0.0, "limit", &raw.limit, message)?;
+        let range = match metric {
+            Metric::Chi2P => format!("from the limit {limit} to 1"),
+            _ => format!("from 0 to the limit {limit}"),
+        };
         for (key, number) in [("measured", &raw.measured), ("warn", &raw.warn)] {
             let Some(number) = number else { continue };
-            let got = number.get_ref();
-            let message = format!("expected a number from 0 to the limit {limit}, got {got}");
-            self.ensure((0.0..=limit).contains(got), key, number, message)?;
+            let got = *number.get_ref();
+            let message = format!("expected a number {range}, got {got}");
+            let within = got >= 0.0 && got.is_finite() && !metric.worse(got, limit);
+            self.ensure(within, key, number, message)?;
         }
         let drift = metric == Metric::Drift;
         let of_pictures = subject.starts_with(SCENES);
@@ -177,7 +182,10 @@ impl Reading<'_> {
         let found = known.iter().find(|(known, _)| known.as_ref() == name.get_ref());
         found.map(|(_, value)| *value).ok_or_else(|| {
             let names: Vec<&str> = known.iter().map(|(name, _)| name.as_ref()).collect();
-            let message = format!("expected {}, got `{}`", names.join(" | "), name.get_ref());
+            let mut message = format!("expected {}, got `{}`", names.join(" | "), name.get_ref());
+            if key == "metric" {
+                message += "; the limit is the largest value that passes, of chi2_p the smallest";
+            }
             self.wrong(key, name, message)
         })
     }

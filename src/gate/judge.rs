@@ -73,7 +73,7 @@ fn judgement(
     let all = subject.instances.iter().map(|of| subject.reached(of, gate, None, device));
     let all: Found<Vec<Reached>> = all.collect::<Result<Vec<_>, _>>()?.into_iter().collect();
     let worse = |worst: &Reached, other: &Reached| {
-        !worst.value.is_nan() && (other.value.is_nan() || other.value > worst.value)
+        !worst.value.is_nan() && gate.metric.worse(other.value, worst.value)
     };
     let worst = |worst, other| if worse(&worst, &other) { other } else { worst };
     Ok(match all.map(|all| all.into_iter().reduce(worst)) {

@@ -111,7 +111,7 @@ fn prove_subject(
         Ok(reached.map_or(f64::NAN, |reached| reached.value))
     };
     for instance in &subject.instances {
-        if beyond(value(instance, None)?, gate.limit) {
+        if gate.metric.worse(value(instance, None)?, gate.limit) {
             return Ok(Err(format!("{} fails as it stands: nothing to show", name(gate))));
         }
     }
@@ -126,7 +126,7 @@ fn prove_subject(
         for instance in &subject.instances {
             proof.take(smallest(|step| {
                 let value = value(instance, Some((lever, step)))?;
-                Ok::<_, GateError>(beyond(value, gate.limit).then_some((step, value)))
+                Ok::<_, GateError>(gate.metric.worse(value, gate.limit).then_some((step, value)))
             })?);
         }
         Ok(proof)
@@ -143,7 +143,7 @@ fn prove_scene(
     found: &mut Proofs,
 ) -> Result<(), GateError> {
     let subject = evidence.scene(gate)?;
-    if beyond(subject.reached(gate, None, device.value())?.value, gate.limit) {
+    if gate.metric.worse(subject.reached(gate, None, device.value())?.value, gate.limit) {
         found.defects.push(format!("{} fails as it stands: nothing to show", name(gate)));
         return Ok(());
     }
@@ -153,7 +153,7 @@ fn prove_scene(
         for constant in &constants {
             let moved = Some(Moved { constant, step });
             let value = subject.reached(gate, moved, device.value())?.value;
-            if beyond(value, gate.limit) {
+            if gate.metric.worse(value, gate.limit) {
                 return Ok(Some((constant.clone(), step, value)));
             }
         }
@@ -196,10 +196,6 @@ impl Proof {
             (self.step, self.value) = (Some(step), Some(value));
         }
     }
-}
-
-fn beyond(value: f64, limit: f64) -> bool {
-    value.is_nan() || value > limit
 }
 
 /// What trips at the smallest of [`STEPS`], of either sign, at which something does.

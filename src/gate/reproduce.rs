@@ -8,8 +8,7 @@ use serde::Serialize;
 
 use super::Verdict;
 use crate::fit::outcome::{FitProvenance, Outcome, Status};
-use crate::fit::run::Context;
-use crate::fit::{FitError, FitResult, Spec, run_spec};
+use crate::fit::{Context, FitError, FitResult, Spec, run_spec};
 use crate::table::store::sha256_hex;
 
 /// How far an f64 constant may be from the committed one, relative: another machine's libm moves

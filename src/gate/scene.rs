@@ -87,9 +87,7 @@ impl Pictured {
             Metric::MaxAbs => (found.max, place),
             Metric::Bias => (found.mean.abs(), nowhere),
             Metric::Flip => (found.flip, nowhere),
-            Metric::P50 | Metric::P95 | Metric::P99 | Metric::MaxRel | Metric::Drift => {
-                (f64::NAN, nowhere)
-            }
+            _ => (f64::NAN, nowhere),
         };
         Reached { value, at, of: None, count: self.scene.values() }
     }

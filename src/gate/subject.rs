@@ -4,15 +4,13 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::evidence::Found;
-use super::{Gate, Metric, Precision, Reached, ShippedConstants};
+use super::{Gate, GateError, Metric, Precision, Reached, ShippedConstants};
 use crate::effect::Candidate;
 use crate::fit::outcome::Residuals;
 use crate::gpu::Device;
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{
-    Arithmetic, GroundTruth, RelativeL2, relative_l2, residuals_device, residuals_f32,
-    residuals_f64,
-};
+use crate::validate::accuracy::{Arithmetic, GroundTruth, RelativeL2, values};
+use crate::validate::draws::{Draws, PointDraws};
 
 /// The fits that one gate judges together: one, or the members of a family.
 #[derive(Debug)]
@@ -33,6 +31,23 @@ pub(super) struct Instance {
     pub(super) target: GroundTruth,
     /// What a proof perturbs.
     pub(super) levers: Vec<Lever>,
+}
+
+impl Gate {
+    /// Whether the metric is one of what `target` judges.
+    pub(super) fn fits(&self, target: &GroundTruth) -> Result<(), GateError> {
+        let metric = self.metric;
+        match (target.distributions.is_empty(), metric.of_draws()) {
+            (false, false) if metric != Metric::Drift => {
+                let of_draws = "draws from a distribution have mean_z, variance_ratio and chi2_p";
+                Err(self.fault(format!("{of_draws}, got {metric}")))
+            }
+            (true, true) => {
+                Err(self.fault(format!("{metric} is of forms that draw, not of values")))
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// Something of which a gate must notice a change.
@@ -94,9 +109,11 @@ impl Instance {
                 }
             }
             // Values times 1 + step against the target leave the same residuals, up to that
-            // factor, as values against the target over 1 + step.
+            // factor, as values against the target over 1 + step; draws are counts, of which the odds move.
             Some((Lever::Output, step)) => {
-                target.to_mut().values.iter_mut().for_each(|v| *v /= 1.0 + step);
+                let target = target.to_mut();
+                target.values.iter_mut().for_each(|v| *v /= 1.0 + step);
+                target.distributions.iter_mut().for_each(|of| *of = of.tilted(1.0 + step));
             }
             None => {}
         }
@@ -116,16 +133,17 @@ impl Instance {
             (Precision::Device, Some(device)) => Arithmetic::Device(device),
             (Precision::F32, _) | (Precision::Device, None) => Arithmetic::F32,
         };
+        let values = values(candidate, target, arithmetic)?;
         let of = self.label.clone();
         if gate.metric == Metric::RelL2 {
-            let RelativeL2 { value, at } = relative_l2(candidate, target, arithmetic)?;
+            let RelativeL2 { value, at } = target.relative_l2(&values);
             return Ok(Reached { value, at, of, count: target.values.len() });
         }
-        let residuals = match arithmetic {
-            Arithmetic::F64 => residuals_f64(candidate, target)?,
-            Arithmetic::F32 => residuals_f32(candidate, target)?,
-            Arithmetic::Device(device) => residuals_device(candidate, target, device)?,
-        };
+        if gate.metric.of_draws() {
+            let (value, at) = figure_of_draws(gate.metric, target, &target.draws(&values));
+            return Ok(Reached { value, at, of, count: target.distributions.len() });
+        }
+        let residuals = target.residuals(&values);
         let (value, at) = figure(gate.metric, &residuals);
         Ok(Reached { value, at, of, count: residuals.count })
     }
@@ -149,7 +167,23 @@ fn figure(metric: Metric, residuals: &Residuals) -> (f64, BTreeMap<String, f64>)
         Metric::P50 => (residuals.p50, nowhere),
         Metric::P95 => (residuals.p95, nowhere),
         Metric::P99 => (residuals.p99, nowhere),
-        // Neither comes here, and either would fail if it did.
-        Metric::RelL2 | Metric::Flip | Metric::Drift => (f64::NAN, nowhere),
+        // No other comes here, and each would fail if it did.
+        _ => (f64::NAN, nowhere),
     }
+}
+
+/// The metric's value, and the point where it is with the number of the first draw there.
+fn figure_of_draws(
+    metric: Metric,
+    target: &GroundTruth,
+    draws: &Draws,
+) -> (f64, BTreeMap<String, f64>) {
+    let (value, point) = match metric {
+        Metric::MeanZ => (draws.worst_mean_z, draws.worst_point(|of| of.mean_z.abs())),
+        Metric::VarianceRatio => {
+            (draws.worst_variance_ratio, draws.worst_point(PointDraws::variance_off))
+        }
+        _ => (draws.chi_squared_p, draws.worst_point(|of| -of.p)),
+    };
+    (value, target.place(point))
 }

@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{Gate, Precision};
+use super::{Gate, Metric, Precision};
 use crate::document::{Verdict, number, place};
 
 /// A number of a fit, and where it was reached.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reached {
-    /// The metric's value, in the target's unit (`max_rel`: 1, `drift`: ulp of f32).
+    /// The metric's value, in the target's unit (`max_rel` and what is measured of draws: 1, `drift`: ulp
+    /// of f32).
     pub value: f64,
     /// Where an extreme is reached: input column to value.
     pub at: BTreeMap<String, f64>,
@@ -53,16 +54,20 @@ impl Judgement {
         let value = measured.value;
         let (verdict, reason) = if value.is_nan() {
             (Verdict::Fail, Some("the error is not a number".to_owned()))
-        } else if value > gate.limit {
+        } else if gate.metric.worse(value, gate.limit) {
             (Verdict::Fail, None)
-        } else if gate.warn.is_some_and(|warn| value >= warn) {
+        } else if gate.warn.is_some_and(|warn| !gate.metric.worse(warn, value)) {
             (Verdict::Warn, None)
         } else if let Some(stale) = stale(&gate, value) {
             (Verdict::Warn, Some(stale))
         } else {
             (Verdict::Pass, None)
         };
-        let margin = Some(1.0 - value / gate.limit);
+        let part = match gate.metric {
+            Metric::Chi2P => gate.limit / value,
+            _ => value / gate.limit,
+        };
+        let margin = Some(1.0 - part);
         Self { gate, verdict, measured: Some(measured), margin, reason }
     }
 

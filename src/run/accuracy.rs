@@ -22,7 +22,7 @@ const HEADER: &str = "candidate\tregion\tprecision\terror\tby\tmax_abs\trms\tbia
 /// | region | | region, set of hard cases, or family |
 /// | precision | | `f64`: the optimum before rounding; `f32`: what ships |
 /// | error | 1 or that of the reference | by the yardstick of the region |
-/// | by | | the yardstick |
+/// | by | | the yardstick; of draws the mean off, in standard errors |
 /// | max_abs, rms, bias, p95 | that of the reference | residuals |
 /// | count | 1 | points |
 pub fn accuracy_table(studied: &[Studied]) -> String {
@@ -31,6 +31,11 @@ pub fn accuracy_table(studied: &[Studied]) -> String {
         for candidate in &study.candidates {
             for (region, accuracy) in candidate.regions.iter().chain(&candidate.hard_cases) {
                 lines.extend(lines_of(&candidate.name, region, accuracy));
+            }
+            for (region, draws) in &candidate.draws {
+                let (z, count) = (shown(draws.f32.worst_mean_z), draws.f32.points.len());
+                let name = &candidate.name;
+                lines.push(format!("{name}\t{region}\tf32\t{z}\t|mean z|\t\t\t\t\t{count}"));
             }
         }
         for family in &study.families {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 #[cfg(doc)]
 use crate::effect::Region;
-use crate::effect::{Candidate, NoValue, Reference, Yardstick};
+use crate::effect::{Candidate, Distribution, NoValue, Reference, Yardstick};
 use crate::fit::outcome::Residuals;
 use crate::form::{Form, Input};
 use crate::gpu::{Device, DeviceKernel};
@@ -29,6 +29,9 @@ pub struct GroundTruth {
     pub groups: Option<(&'static str, Vec<f64>)>,
     /// The error by which forms are compared here.
     pub yardstick: Yardstick,
+    /// What draws are held against in place of values: one per run of rows of the same length, whose
+    /// means are the values. Empty where values are judged.
+    pub distributions: Vec<Distribution>,
 }
 
 /// Points of a reference with its values, for forms that may take more than its arguments.
@@ -36,14 +39,10 @@ pub struct GroundTruth {
 pub struct Judged {
     /// Columns for every argument of the reference, and further ones.
     pub points: Table,
-    /// The true values; of several outputs all rows of the first before those of the next.
-    pub values: Vec<f64>,
-    /// How many outputs the reference has.
-    pub outputs: usize,
     /// The argument that parts the points into groups.
     pub by: Option<&'static str>,
-    /// The error by which forms are compared here.
-    pub yardstick: Yardstick,
+    /// The true values and distributions, without inputs of a form.
+    pub(super) truth: GroundTruth,
 }
 
 impl Judged {
@@ -62,37 +61,40 @@ impl Judged {
             .iter()
             .map(|argument| column(&points, argument.name))
             .collect::<Result<Vec<_>, _>>()?;
-        let failed = |NoValue { row, source }| ValidateError::Reference {
-            reference: reference.name,
-            row: row + 1,
-            source,
+        let failed = |NoValue { row, source }| ValidateError::Unusable {
+            origin: format!("reference `{}`, row {}", reference.name, row + 1),
+            what: source.to_string(),
         };
-        let values = reference.over(&columns).map_err(failed)?;
-        let outputs = reference.outputs().len();
-        Ok(Self { points, values, outputs, by, yardstick })
+        let truth = GroundTruth {
+            values: reference.over(&columns).map_err(failed)?,
+            distributions: reference.distributions(&columns).map_err(failed)?,
+            outputs: reference.outputs().len(),
+            yardstick,
+            ..GroundTruth::none()
+        };
+        Ok(Self { points, by, truth })
     }
 
-    /// Whether the points have every input of `form`.
+    /// Whether the points have every input of `form`, but for what numbers its draws.
     pub fn serves(&self, form: &Form) -> bool {
-        form.input_columns().iter().all(|input| self.points.column(input).is_some())
+        let there = |input: &String| self.points.column(input).is_some();
+        self.counter(form).is_some() || form.input_columns().iter().all(there)
     }
 
-    /// The points as `form` takes them.
+    /// The points as `form` takes them; of a form that draws, its draws at each of them.
     ///
     /// # Errors
     /// If a column is missing.
     pub fn target(&self, form: &Form) -> Result<GroundTruth, ValidateError> {
-        let arguments = form.input_columns();
-        let inputs = arguments
-            .iter()
-            .map(|argument| column(&self.points, argument).map(<[f64]>::to_vec))
-            .collect::<Result<Vec<_>, _>>()?;
+        if let Some(counter) = self.counter(form) {
+            return self.drawn(form, counter);
+        }
         let groups = match self.by {
             None => None,
             Some(by) => Some((by, column(&self.points, by)?.to_vec())),
         };
-        let (values, outputs, yardstick) = (self.values.clone(), self.outputs, self.yardstick);
-        Ok(GroundTruth { arguments, inputs, values, outputs, groups, yardstick })
+        let truth = GroundTruth { groups, distributions: Vec::new(), ..self.truth.clone() };
+        truth.at(&self.points, form)
     }
 }
 
@@ -114,20 +116,23 @@ impl GroundTruth {
     /// # Errors
     /// If a column is missing.
     pub fn of_table(table: &Table, form: &Form) -> Result<Self, ValidateError> {
-        let arguments = form.input_columns();
-        let inputs = arguments
-            .iter()
-            .map(|argument| column(table, argument).map(<[f64]>::to_vec))
-            .collect::<Result<Vec<_>, _>>()?;
         let values = column(table, "value")?.to_vec();
-        let (outputs, yardstick) = (1, Yardstick::MaxAbs);
-        Ok(Self { arguments, inputs, values, outputs, groups: None, yardstick })
+        Self { values, ..Self::none() }.at(table, form)
+    }
+
+    /// The same at the columns of `table` that `form` takes.
+    fn at(mut self, table: &Table, form: &Form) -> Result<Self, ValidateError> {
+        self.arguments = form.input_columns();
+        let inputs = self.arguments.iter().map(|argument| Ok(column(table, argument)?.to_vec()));
+        self.inputs = inputs.collect::<Result<_, ValidateError>>()?;
+        Ok(self)
     }
 
     /// The points of all in one group, for targets of the same arguments; none of none.
     pub fn all(targets: impl IntoIterator<Item = Self>) -> Option<Self> {
         targets.into_iter().reduce(|mut all, more| {
             all.groups = None;
+            all.distributions.clear();
             let rows = [&all, &more].map(|target| target.values.len() / target.outputs.max(1));
             let parts = all.values.chunks(rows[0].max(1)).zip(more.values.chunks(rows[1].max(1)));
             all.values = parts.flat_map(|(own, added)| own.iter().chain(added).copied()).collect();
@@ -163,7 +168,6 @@ impl GroundTruth {
         RelativeL2 { value, at: at.into_iter().collect() }
     }
 
-    /// Residuals of `values` against the target.
     /// No points.
     pub(crate) fn none() -> Self {
         Self {
@@ -173,21 +177,21 @@ impl GroundTruth {
             outputs: 1,
             groups: None,
             yardstick: Yardstick::MaxAbs,
+            distributions: Vec::new(),
         }
     }
 
-    fn residuals(&self, values: &[f64]) -> Residuals {
+    /// Residuals of `values` against the target.
+    pub fn residuals(&self, values: &[f64]) -> Residuals {
         Residuals::measure(&self.inputs, &self.arguments, values, &self.values)
     }
 }
 
-fn column<'t>(table: &'t Table, name: &str) -> Result<&'t [f64], ValidateError> {
-    table.column(name).map(|column| column.values.as_slice()).ok_or_else(|| {
-        ValidateError::MissingColumn {
-            table: table.origin.clone(),
-            column: name.to_owned(),
-            known: table.columns.iter().map(|column| column.name.clone()).collect(),
-        }
+pub(super) fn column<'t>(table: &'t Table, name: &str) -> Result<&'t [f64], ValidateError> {
+    let column = table.column(name).map(|column| column.values.as_slice());
+    column.ok_or_else(|| ValidateError::Unusable {
+        origin: table.origin.clone(),
+        what: format!("no column `{name}`; there are: {}", table.names().join(", ")),
     })
 }
 
@@ -244,81 +248,24 @@ pub fn accuracy(
     target: &GroundTruth,
     kernel: &Measured<DeviceKernel<'_>>,
 ) -> Result<Accuracy, ValidateError> {
+    let judged = |values: &[f64]| {
+        let (residuals, norm) = (target.residuals(values), target.relative_l2(values));
+        let headline = headline(target.yardstick, &residuals, norm.value);
+        (residuals, norm, headline)
+    };
     let (device, headline_device) = match kernel {
         Measured::NotMeasured(reason) => {
             (Measured::NotMeasured(reason.clone()), Measured::NotMeasured(reason.clone()))
         }
         Measured::Value(kernel) => {
-            let values = widened(&kernel_values(kernel, target)?);
-            let residuals = target.residuals(&values);
-            let norm = target.relative_l2(&values).value;
-            let headline = headline(target.yardstick, &residuals, norm);
+            let (residuals, _, headline) = judged(&widened(&kernel_values(kernel, target)?));
             (Measured::Value(residuals), Measured::Value(headline))
         }
     };
-    let values = widened(&values_f32(candidate, target)?);
-    let exact = values_f64(candidate, target)?;
-    let f64 = target.residuals(&exact);
-    Ok(Accuracy {
-        headline_f64: headline(target.yardstick, &f64, target.relative_l2(&exact).value),
-        f64,
-        f32: target.residuals(&values),
-        device,
-        headline_device,
-        relative_l2: target.relative_l2(&values),
-        yardstick: target.yardstick,
-    })
-}
-
-/// Residuals of the f64 constants in f64.
-///
-/// # Errors
-/// If the form cannot be evaluated.
-pub fn residuals_f64(
-    candidate: &Candidate,
-    target: &GroundTruth,
-) -> Result<Residuals, ValidateError> {
-    Ok(target.residuals(&values_f64(candidate, target)?))
-}
-
-/// Residuals of the candidate constants in f32.
-///
-/// # Errors
-/// If the form cannot be evaluated.
-pub fn residuals_f32(
-    candidate: &Candidate,
-    target: &GroundTruth,
-) -> Result<Residuals, ValidateError> {
-    Ok(target.residuals(&widened(&values_f32(candidate, target)?)))
-}
-
-/// Residuals of the candidate constants on the device.
-///
-/// # Errors
-/// If the device fails.
-pub fn residuals_device(
-    candidate: &Candidate,
-    target: &GroundTruth,
-    device: &Device,
-) -> Result<Residuals, ValidateError> {
-    Ok(target.residuals(&widened(&device_values(candidate, target, device)?)))
-}
-
-/// Relative L2 error in one arithmetic: the worst group of points.
-///
-/// # Errors
-/// If the form cannot be evaluated, or the device fails.
-pub fn relative_l2(
-    candidate: &Candidate,
-    target: &GroundTruth,
-    precision: Arithmetic<'_>,
-) -> Result<RelativeL2, ValidateError> {
-    let values = match precision {
-        Arithmetic::F64 => values_f64(candidate, target)?,
-        Arithmetic::F32 => widened(&values_f32(candidate, target)?),
-        Arithmetic::Device(device) => widened(&device_values(candidate, target, device)?),
-    };
-    Ok(target.relative_l2(&values))
+    let (f64, _, headline_f64) = judged(&values(candidate, target, Arithmetic::F64)?);
+    let (f32, relative_l2, _) = judged(&values(candidate, target, Arithmetic::F32)?);
+    let yardstick = target.yardstick;
+    Ok(Accuracy { f64, f32, device, relative_l2, yardstick, headline_device, headline_f64 })
 }
 
 /// In which arithmetic a form is evaluated.
@@ -332,12 +279,29 @@ pub enum Arithmetic<'d> {
     Device(&'d Device),
 }
 
-/// Values in f32 at the target's points.
-fn values_f64(candidate: &Candidate, target: &GroundTruth) -> Result<Vec<f64>, ValidateError> {
-    let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
-    joined(candidate.form.origin(), target, candidate.form.eval_f64(&candidate.constants, &inputs)?)
+/// Values at the target's points in one arithmetic.
+///
+/// # Errors
+/// If the form cannot be evaluated, or the device fails.
+pub fn values(
+    candidate: &Candidate,
+    target: &GroundTruth,
+    arithmetic: Arithmetic<'_>,
+) -> Result<Vec<f64>, ValidateError> {
+    let Candidate { form, constants, constants_f32, .. } = candidate;
+    match arithmetic {
+        Arithmetic::F64 => {
+            let inputs: Vec<&[f64]> = target.inputs.iter().map(Vec::as_slice).collect();
+            joined(form.origin(), target, form.eval_f64(constants, &inputs)?)
+        }
+        Arithmetic::F32 => Ok(widened(&values_f32(candidate, target)?)),
+        Arithmetic::Device(device) => {
+            Ok(widened(&kernel_values(&device.compile(form, constants_f32)?, target)?))
+        }
+    }
 }
 
+/// Values in f32 at the target's points.
 pub(crate) fn values_f32(
     candidate: &Candidate,
     target: &GroundTruth,
@@ -345,15 +309,6 @@ pub(crate) fn values_f32(
     let Candidate { form, constants_f32, .. } = candidate;
     let values = form.eval_f32_inputs(constants_f32, &as_inputs(&target.inputs))?;
     joined(form.origin(), target, values)
-}
-
-/// Values on the device at the target's points.
-pub(crate) fn device_values(
-    candidate: &Candidate,
-    target: &GroundTruth,
-    device: &Device,
-) -> Result<Vec<f32>, ValidateError> {
-    kernel_values(&device.compile(&candidate.form, &candidate.constants_f32)?, target)
 }
 
 /// Values of a compiled form at the target's points.
@@ -374,9 +329,10 @@ fn joined<T: Copy>(
     match target.outputs {
         1 => Ok(outputs.swap_remove(0)),
         wanted if wanted == outputs.len() => Ok(outputs.concat()),
-        expected => {
-            Err(ValidateError::Outputs { form: form.to_owned(), expected, got: outputs.len() })
-        }
+        expected => Err(ValidateError::Unusable {
+            origin: form.to_owned(),
+            what: format!("returns {} values, its reference {expected}", outputs.len()),
+        }),
     }
 }
 
@@ -384,6 +340,6 @@ fn as_inputs(inputs: &[Vec<f64>]) -> Vec<Input<'_>> {
     inputs.iter().map(Input::from).collect()
 }
 
-fn widened(values: &[f32]) -> Vec<f64> {
+pub(super) fn widened(values: &[f32]) -> Vec<f64> {
     values.iter().map(|value| f64::from(*value)).collect()
 }

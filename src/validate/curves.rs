@@ -28,12 +28,7 @@ pub fn against_reference(
     let values = arguments.iter().map(|value| f64::from(*value as f32)).collect();
     let name = reference.arguments.first().map_or("", |argument| argument.name);
     let points = Table {
-        columns: vec![Column {
-            name: name.to_owned(),
-            unit: "1".into(),
-            values,
-            uncertainty: None,
-        }],
+        columns: vec![Column::new(name, "1", values)],
         origin: format!("points of {}", reference.name),
     };
     error(candidate, &GroundTruth::of_reference(reference, points, &candidate.form)?)
@@ -49,14 +44,9 @@ pub fn over_member(candidate: &Candidate, member: &Member) -> Result<Curve, Vali
 
 fn error(candidate: &Candidate, target: &GroundTruth) -> Result<Curve, ValidateError> {
     let values = values_f32(candidate, target)?;
-    let mut points: Vec<(f64, f64)> = target
-        .inputs
-        .first()
-        .into_iter()
-        .flatten()
-        .zip(values.iter().zip(&target.values))
-        .map(|(argument, (value, truth))| (*argument, f64::from(*value) - truth))
-        .collect();
+    let errors = values.iter().zip(&target.values).map(|(value, truth)| f64::from(*value) - truth);
+    let along = target.inputs.first().into_iter().flatten().copied();
+    let mut points: Vec<(f64, f64)> = along.zip(errors).collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(Curve { name: candidate.name.clone(), points })
 }

@@ -82,14 +82,12 @@ pub fn over_family(
     outcomes: &[Outcome],
     residuals: Vec<Residuals>,
 ) -> FormOverFamily {
-    let count: usize = residuals.iter().map(|r| r.count).sum();
-    let sum: f64 = residuals.iter().map(|r| r.rms * r.rms * r.count as f64).sum();
     let worst =
         residuals.iter().zip(members).max_by(|(a, _), (b, _)| a.max_abs.total_cmp(&b.max_abs));
     FormOverFamily {
         fit: fit.to_owned(),
         free: outcomes.first().map_or(0, Outcome::free_count),
-        rms: if count == 0 { f64::NAN } else { (sum / count as f64).sqrt() },
+        rms: pooled_rms(&residuals),
         max_abs: worst.map_or(f64::NAN, |(residuals, _)| residuals.max_abs),
         max_member: worst.map(|(_, member)| member.label.clone()).unwrap_or_default(),
         max_at: worst.map(|(residuals, _)| residuals.max_abs_at.clone()).unwrap_or_default(),
@@ -118,21 +116,18 @@ fn constant_spread(members: &[Member], outcomes: &[Outcome]) -> BTreeMap<String,
             if parameter.role != "free" {
                 continue;
             }
-            let values = outcomes.iter().filter_map(|o| o.parameters.get(name)).map(|p| p.value);
-            let (low, high) = values
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                    (low.min(value), high.max(value))
-                });
+            let values = || outcomes.iter().filter_map(|o| o.parameters.get(name)).map(|p| p.value);
+            let (low, high) = (
+                values().fold(f64::INFINITY, f64::min),
+                values().fold(f64::NEG_INFINITY, f64::max),
+            );
             halves.entry(name.clone()).or_default().push(0.5 * (high - low));
         }
     }
-    halves
-        .into_iter()
-        .map(|(name, halves)| {
-            let square: f64 = halves.iter().map(|half| half * half).sum();
-            (name, (square / halves.len() as f64).sqrt())
-        })
-        .collect()
+    let rms = |halves: Vec<f64>| {
+        (halves.iter().map(|half| half * half).sum::<f64>() / halves.len() as f64).sqrt()
+    };
+    halves.into_iter().map(|(name, halves)| (name, rms(halves))).collect()
 }
 
 /// The difference between sources, per group with more than one.
@@ -178,15 +173,9 @@ fn spread(group: &str, members: &[&Member]) -> Option<GroupSpread> {
 /// Magnitudes of the differences of `value` at the first arguments that both tables have.
 fn differences(first: &Table, second: &Table) -> Vec<f64> {
     let pairs = |table: &Table| -> BTreeMap<u64, f64> {
-        match (table.columns.first(), table.column("value")) {
-            (Some(argument), Some(value)) => argument
-                .values
-                .iter()
-                .map(|argument| argument.to_bits())
-                .zip(value.values.iter().copied())
-                .collect(),
-            _ => BTreeMap::new(),
-        }
+        let columns = table.columns.first().zip(table.column("value"));
+        let pairs = columns.map(|(argument, value)| argument.values.iter().zip(&value.values));
+        pairs.into_iter().flatten().map(|(argument, value)| (argument.to_bits(), *value)).collect()
     };
     let second = pairs(second);
     pairs(first)
@@ -203,24 +192,26 @@ pub fn choices(forms: &[FormOverFamily], spreads: &[GroupSpread], cost_ns: &[f64
         forms.iter().flat_map(|form| &form.members).map(|member| member.group.as_str()).collect();
     groups.sort_unstable();
     groups.dedup();
-    groups
-        .into_iter()
-        .map(|group| {
-            let Some(spread) = spreads.iter().find(|spread| spread.group == group) else {
-                return Choice {
-                    group: group.to_owned(),
-                    spread_rms: None,
-                    cheapest: None,
-                    rms: None,
-                    reason: "one source: its uncertainty is not known from this data".into(),
-                };
-            };
-            choice(group, forms, spread, cost_ns)
-        })
-        .collect()
+    groups.into_iter().map(|group| choice(group, forms, spreads, cost_ns)).collect()
 }
 
-fn choice(group: &str, forms: &[FormOverFamily], spread: &GroupSpread, cost_ns: &[f64]) -> Choice {
+fn choice(
+    group: &str,
+    forms: &[FormOverFamily],
+    spreads: &[GroupSpread],
+    cost_ns: &[f64],
+) -> Choice {
+    let spread = spreads.iter().find(|spread| spread.group == group);
+    let none = |reason: String| Choice {
+        group: group.to_owned(),
+        spread_rms: spread.map(|spread| spread.rms),
+        cheapest: None,
+        rms: None,
+        reason,
+    };
+    let Some(GroupSpread { rms: spread, sources, .. }) = spread else {
+        return none("one source: its uncertainty is not known from this data".into());
+    };
     let mut candidates: Vec<(&FormOverFamily, f64, f64)> = forms
         .iter()
         .zip(cost_ns)
@@ -228,40 +219,29 @@ fn choice(group: &str, forms: &[FormOverFamily], spread: &GroupSpread, cost_ns: 
         .filter(|(_, rms, _)| rms.is_finite())
         .collect();
     candidates.sort_by(|a, b| a.2.total_cmp(&b.2));
-    let within = candidates.iter().find(|(_, rms, _)| *rms <= spread.rms);
-    match within {
-        Some((form, rms, _)) => {
-            let finer = candidates.iter().filter(|(_, other, _)| other < rms).count();
-            Choice {
-                group: group.to_owned(),
-                spread_rms: Some(spread.rms),
-                cheapest: Some(form.fit.clone()),
-                rms: Some(*rms),
-                reason: format!(
-                    "within the spread of {}; {finer} finer fit(s) cost more than the data supports",
-                    spread.sources.join(" and ")
-                ),
-            }
-        }
-        None => Choice {
-            group: group.to_owned(),
-            spread_rms: Some(spread.rms),
-            cheapest: None,
-            rms: None,
-            reason: format!(
-                "{} agree more closely than any form follows them",
-                spread.sources.join(" and ")
-            ),
-        },
-    }
+    let sources = sources.join(" and ");
+    let Some((form, rms, _)) = candidates.iter().find(|(_, rms, _)| rms <= spread) else {
+        return none(format!("{sources} agree more closely than any form follows them"));
+    };
+    let finer = candidates.iter().filter(|(_, other, _)| other < rms).count();
+    let reason = format!(
+        "within the spread of {sources}; {finer} finer fit(s) cost more than the data supports"
+    );
+    Choice { cheapest: Some(form.fit.clone()), rms: Some(*rms), ..none(reason) }
 }
 
 /// Root mean square error of a form over the members of a group.
 pub fn group_rms(form: &FormOverFamily, group: &str) -> f64 {
+    let own = form.members.iter().filter(|member| member.group == group);
+    pooled_rms(own.map(|member| &member.residuals))
+}
+
+/// Root mean square over the points of all; not a number without any.
+fn pooled_rms<'a>(all: impl IntoIterator<Item = &'a Residuals>) -> f64 {
     let (mut count, mut sum) = (0_usize, 0.0);
-    for member in form.members.iter().filter(|member| member.group == group) {
-        count += member.residuals.count;
-        sum += member.residuals.rms * member.residuals.rms * member.residuals.count as f64;
+    for residuals in all {
+        count += residuals.count;
+        sum += residuals.rms * residuals.rms * residuals.count as f64;
     }
-    if count == 0 { f64::NAN } else { (sum / count as f64).sqrt() }
+    (sum / count as f64).sqrt()
 }

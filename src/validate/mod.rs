@@ -31,12 +31,10 @@
 //! [`study::study`] does all of it for every candidate of an effect.
 
 pub mod accuracy;
-pub mod cheapest;
 pub mod cost;
 pub mod curves;
 pub mod draws;
 pub mod family;
-pub mod goals;
 pub mod laws;
 pub mod parity;
 pub mod regions;
@@ -45,7 +43,7 @@ pub mod standing;
 pub mod study;
 pub mod timed;
 
-use crate::effect::{CandidateError, ClaimError, DomainError};
+use crate::effect::{CandidateError, ClaimError};
 use crate::form::FormError;
 use crate::gpu::GpuError;
 use crate::project::ProjectError;
@@ -59,25 +57,14 @@ pub enum ValidateError {
     /// The device failed.
     #[error(transparent)]
     Device(#[from] GpuError),
-    /// The reference has no value at a point.
-    #[error("reference `{reference}`, row {row}: {source}")]
-    Reference {
-        /// The reference.
-        reference: &'static str,
-        /// Row of the points, from 1.
-        row: usize,
-        /// The fault.
-        source: DomainError,
-    },
-    /// A table lacks a column that a form or reference takes.
-    #[error("{table}: no column `{column}`; there are: {}", known.join(", "))]
-    MissingColumn {
-        /// Origin of the table.
-        table: String,
-        /// The column.
-        column: String,
-        /// Those that there are.
-        known: Vec<String>,
+    /// What cannot be judged: a reference outside its domain, a table without a column that a form or
+    /// reference takes, a form that returns another number of values than its reference.
+    #[error("{origin}: {what}")]
+    Unusable {
+        /// Reference and row, table or form.
+        origin: String,
+        /// Expected and got.
+        what: String,
     },
     /// What the effect shows beyond its fits could not be made.
     #[error(transparent)]
@@ -85,16 +72,6 @@ pub enum ValidateError {
     /// There is no candidate where one is needed.
     #[error(transparent)]
     Candidate(#[from] CandidateError),
-    /// A form returns another number of values than its reference.
-    #[error("{form}: returns {got} values, its reference {expected}")]
-    Outputs {
-        /// Origin of the form.
-        form: String,
-        /// Values of the reference.
-        expected: usize,
-        /// Values of the form.
-        got: usize,
-    },
     /// What a project names could not be had.
     #[error(transparent)]
     Project(#[from] ProjectError),

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::effect::points::rounded;
 use crate::effect::{Effect, Reference, Region};
 use crate::form::Form;
 use crate::table::Table;
@@ -22,8 +23,8 @@ pub struct Atlas {
 /// The regions and the hard cases of one reference, for every form that approximates it.
 #[derive(Debug, Clone)]
 pub(super) struct Grounds {
-    regions: Vec<(&'static str, Arc<Judged>)>,
-    hard_cases: Vec<(&'static str, Arc<Judged>)>,
+    pub(super) regions: Vec<(&'static str, Arc<Judged>)>,
+    pub(super) hard_cases: Vec<(&'static str, Arc<Judged>)>,
 }
 
 impl Atlas {
@@ -33,7 +34,7 @@ impl Atlas {
     /// Points are numbers of f32, so that a form in f32 and a reference in f64 see the same argument.
     ///
     /// # Errors
-    /// [`ValidateError::Reference`] if a point is outside the domain.
+    /// [`ValidateError::Unusable`] if a point is outside the domain.
     pub fn judged(
         &self,
         region: &'static Region,
@@ -45,13 +46,10 @@ impl Atlas {
             return Ok(found.clone());
         }
         let points = rounded((region.points)());
-        let found = match has_arguments(&points, reference) {
-            true => {
-                let judged = Judged::new(reference, points, region.by, region.yardstick)?;
-                Some(Arc::new(judged))
-            }
-            false => None,
-        };
+        let found = has_arguments(&points, reference)
+            .then(|| Judged::new(reference, points, region.by, region.yardstick))
+            .transpose()?
+            .map(Arc::new);
         known().insert(key, found.clone());
         Ok(found)
     }
@@ -75,25 +73,9 @@ impl Atlas {
 }
 
 impl Grounds {
-    /// The regions that have a column for every input of `form`.
-    pub(super) fn regions(
-        &self,
-        form: &Form,
-    ) -> Result<Vec<(&'static str, GroundTruth)>, ValidateError> {
-        served(&self.regions, form)
-    }
-
-    /// The hard cases that have a column for every input of `form`.
-    pub(super) fn hard_cases(
-        &self,
-        form: &Form,
-    ) -> Result<Vec<(&'static str, GroundTruth)>, ValidateError> {
-        served(&self.hard_cases, form)
-    }
-
     /// All regions together.
     pub(super) fn everywhere(&self, form: &Form) -> Result<Option<GroundTruth>, ValidateError> {
-        Ok(GroundTruth::all(self.regions(form)?.into_iter().map(|(_, target)| target)))
+        Ok(GroundTruth::all(served(&self.regions, form)?.into_iter().map(|(_, target)| target)))
     }
 
     /// The arguments of the reference over all regions, or over the hard cases where there are none.
@@ -107,7 +89,8 @@ impl Grounds {
     }
 }
 
-fn served(
+/// Those of `grounds` that have a column for every input of `form`.
+pub(super) fn served(
     grounds: &[(&'static str, Arc<Judged>)],
     form: &Form,
 ) -> Result<Vec<(&'static str, GroundTruth)>, ValidateError> {
@@ -118,11 +101,4 @@ fn served(
 fn has_arguments(points: &Table, reference: &Reference) -> bool {
     points.rows() > 0
         && reference.arguments.iter().all(|argument| points.column(argument.name).is_some())
-}
-
-fn rounded(mut table: Table) -> Table {
-    for value in table.columns.iter_mut().flat_map(|column| &mut column.values) {
-        *value = f64::from(*value as f32);
-    }
-    table
 }

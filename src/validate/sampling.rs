@@ -50,11 +50,8 @@ impl ArgumentBox {
                 .split_once(':')
                 .ok_or_else(|| fault(format!("`{}` has no `:`", range.trim())))?;
             let end = |word: &str| {
-                word.trim()
-                    .parse::<f64>()
-                    .ok()
-                    .filter(|value| value.is_finite())
-                    .ok_or_else(|| fault(format!("`{}` is not a finite number", word.trim())))
+                let number = word.trim().parse().ok().filter(|value: &f64| value.is_finite());
+                number.ok_or_else(|| fault(format!("`{}` is not a finite number", word.trim())))
             };
             let (argument, from, to) = (argument.trim().to_owned(), end(from)?, end(to)?);
             if argument.is_empty() {
@@ -87,59 +84,31 @@ const SEED: u64 = 0x005e_ed0f_9a7e;
 ///
 /// The columns come in the order of `domain`; `hard_cases` needs a column of each name to add any.
 pub fn points(domain: &ArgumentBox, hard_cases: &[Table]) -> Table {
-    let dimensions = domain.intervals.len();
-    let mut columns: Vec<Vec<f64>> = vec![Vec::new(); dimensions];
-    let mut push = |point: &[f64]| {
-        for ((column, interval), value) in columns.iter_mut().zip(&domain.intervals).zip(point) {
-            column.push(inside(*value, interval));
-        }
-    };
+    let intervals = &domain.intervals;
+    let dimensions = intervals.len();
+    let mut rows: Vec<Vec<f64>> = Vec::new();
     for corner in 0..1_usize << dimensions.min(12) {
-        let point: Vec<f64> = domain
-            .intervals
-            .iter()
-            .enumerate()
-            .map(
-                |(axis, interval)| {
-                    if corner >> axis & 1 == 0 { interval.from } else { interval.to }
-                },
-            )
-            .collect();
-        push(&point);
+        let upper = |axis: usize| corner >> axis & 1 == 1;
+        let end = |(axis, of): (usize, &Interval)| if upper(axis) { of.to } else { of.from };
+        rows.push(intervals.iter().enumerate().map(end).collect());
     }
-    if let [interval] = domain.intervals.as_slice() {
-        let width = (interval.to - interval.from) / CELLS as f64;
-        for cell in 0..CELLS {
-            push(&[interval.from + (cell as f64 + 0.5) * width]);
-        }
-        push(&[f64::from((interval.from as f32).next_up())]);
-        push(&[f64::from((interval.to as f32).next_down())]);
+    if let [Interval { from, to, .. }] = intervals[..] {
+        let width = (to - from) / CELLS as f64;
+        rows.extend((0..CELLS).map(|cell| vec![from + (cell as f64 + 0.5) * width]));
+        rows.push(vec![f64::from((from as f32).next_up())]);
+        rows.push(vec![f64::from((to as f32).next_down())]);
     }
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     let draws = if dimensions == 1 { RANDOM_POINTS } else { CELLS + RANDOM_POINTS };
     for _ in 0..draws {
-        let point: Vec<f64> = domain
-            .intervals
-            .iter()
-            .map(|interval| random.random_range(interval.from..=interval.to))
-            .collect();
-        push(&point);
+        rows.push(intervals.iter().map(|of| random.random_range(of.from..=of.to)).collect());
     }
-    for point in hard_cases.iter().flat_map(|table| rows_inside(table, domain)) {
-        push(&point);
-    }
+    rows.extend(hard_cases.iter().flat_map(|table| rows_inside(table, domain)));
+    let column = |(axis, of): (usize, &Interval)| {
+        Column::new(&of.argument, "1", rows.iter().map(|row| inside(row[axis], of)).collect())
+    };
     Table {
-        columns: domain
-            .intervals
-            .iter()
-            .zip(columns)
-            .map(|(interval, values)| Column {
-                name: interval.argument.clone(),
-                unit: "1".into(),
-                values,
-                uncertainty: None,
-            })
-            .collect(),
+        columns: intervals.iter().enumerate().map(column).collect(),
         origin: "validation points".into(),
     }
 }
@@ -158,23 +127,15 @@ fn inside(value: f64, interval: &Interval) -> f64 {
 }
 
 fn rows_inside(table: &Table, domain: &ArgumentBox) -> Vec<Vec<f64>> {
-    let Some(columns) = domain
-        .intervals
-        .iter()
-        .map(|interval| table.column(&interval.argument))
-        .collect::<Option<Vec<_>>>()
-    else {
+    let column = |of: &Interval| Some(&table.column(&of.argument)?.values);
+    let Some(columns) = domain.intervals.iter().map(column).collect::<Option<Vec<_>>>() else {
         return Vec::new();
     };
-    (0..table.rows())
-        .map(|row| columns.iter().map(|column| column.values[row]).collect::<Vec<f64>>())
-        .filter(|point| {
-            point
-                .iter()
-                .zip(&domain.intervals)
-                .all(|(value, interval)| (interval.from..=interval.to).contains(value))
-        })
-        .collect()
+    let inside = |row: &Vec<f64>| {
+        row.iter().zip(&domain.intervals).all(|(value, of)| (of.from..=of.to).contains(value))
+    };
+    let rows = (0..table.rows()).map(|row| columns.iter().map(|column| column[row]).collect());
+    rows.filter(inside).collect()
 }
 
 #[cfg(test)]
@@ -210,15 +171,8 @@ mod tests {
 
     #[test]
     fn hard_cases_outside_the_domain_are_left_out() {
-        let hard = Table {
-            columns: vec![Column {
-                name: "x".into(),
-                unit: "1".into(),
-                values: vec![0.25, 5.0],
-                uncertainty: None,
-            }],
-            origin: String::new(),
-        };
+        let hard =
+            Table { columns: vec![Column::new("x", "1", vec![0.25, 5.0])], origin: String::new() };
         let domain = ArgumentBox::parse("x = 0:1").expect("well formed");
         let with = points(&domain, std::slice::from_ref(&hard));
         assert_eq!(with.rows(), points(&domain, &[]).rows() + 1);

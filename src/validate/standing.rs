@@ -1,12 +1,16 @@
-//! Where forms stand: the error of each beside its cost, and which no other beats in both.
+//! Where forms stand: the error of each beside its cost, which no other beats in both, which is the
+//! cheapest for an error, and what was set out to be reached.
 
 use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use crate::effect::Yardstick;
+use crate::effect::{Effect, Goal, Yardstick};
+use crate::numeric::measured::Measured;
 use crate::numeric::statistics::largest;
+use crate::validate::accuracy::Accuracy;
 use crate::validate::cost::{Cost, Costs};
+use crate::validate::draws::DrawsStudy;
 use crate::validate::study::Study;
 
 /// A form with its error and its cost.
@@ -14,7 +18,8 @@ use crate::validate::study::Study;
 pub struct Standing<'a> {
     /// The fit.
     pub fit: &'a str,
-    /// Error in f32 by which forms are compared, by region (or over all members of a family).
+    /// Error in f32 by which forms are compared, by region (or over all members of a family); of a form
+    /// that draws the mean off that of its distribution, in standard errors.
     pub error: Vec<(String, f64)>,
     /// Whether no fit to the same reference errs less at no more cost.
     pub frontier: bool,
@@ -59,14 +64,17 @@ pub fn standings<'a>(study: &'a Study, costs: &'a Costs) -> Vec<Standing<'a>> {
 
 fn errors(study: &Study, fit: &str) -> Vec<(String, f64)> {
     if let Some(study) = study.candidates.iter().find(|study| study.name == fit) {
-        let region = |(name, accuracy): &(String, crate::validate::accuracy::Accuracy)| {
+        let region = |(name, accuracy): &(String, Accuracy)| {
             let kind = match accuracy.yardstick {
                 Yardstick::MaxAbs => name.clone(),
                 other => format!("{name}, {}", other.words()),
             };
             (kind, accuracy.headline())
         };
-        return study.regions.iter().map(region).collect();
+        let drawn = |(name, draws): &(String, DrawsStudy)| {
+            (format!("{name}, |mean z|"), draws.f32.worst_mean_z)
+        };
+        return study.regions.iter().map(region).chain(study.draws.iter().map(drawn)).collect();
     }
     let forms = study.families.iter().flat_map(|family| &family.forms);
     forms
@@ -105,4 +113,122 @@ impl<'a> Answers<'a> {
                 .min_by(|a, b| a.cost.nanoseconds().total_cmp(&b.cost.nanoseconds())),
         })
     }
+}
+
+/// Relative errors that are asked for.
+pub const LIMITS: [f64; 3] = [0.1, 0.01, 0.001];
+
+/// The cheapest forms of one reference in one region.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cheapest {
+    /// The region.
+    pub region: String,
+    /// The fit that renderers ship.
+    pub baseline: String,
+    /// For each of [`LIMITS`] the cheapest fit whose error in f32 is not above it and its cost
+    /// relative to the baseline; none if no fit reaches it.
+    pub fits: [Option<(String, f64)>; LIMITS.len()],
+}
+
+/// For every region in which forms are compared by a relative error: who reaches 10 %, 1 % and 0.1 %
+/// at the least cost, on the device or, where there is none, on f32 lanes.
+pub fn cheapest(study: &Study, costs: &Costs) -> Vec<Cheapest> {
+    let mut found: Vec<Cheapest> = Vec::new();
+    for fit in &study.candidates {
+        let Some(cost) = costs.forms.iter().find(|cost| cost.name == fit.name) else {
+            continue;
+        };
+        let of_baseline = costs.forms.iter().find(|other| other.name == cost.baseline);
+        let unit = of_baseline.map_or(f64::NAN, Cost::nanoseconds);
+        for (region, accuracy) in &fit.regions {
+            if accuracy.yardstick == Yardstick::MaxAbs {
+                continue;
+            }
+            let known =
+                found.iter().position(|c| c.region == *region && c.baseline == cost.baseline);
+            let place = known.unwrap_or_else(|| {
+                found.push(Cheapest {
+                    region: region.clone(),
+                    baseline: cost.baseline.clone(),
+                    fits: [const { None }; LIMITS.len()],
+                });
+                found.len() - 1
+            });
+            let ratio = cost.nanoseconds() / unit;
+            for (best, limit) in found[place].fits.iter_mut().zip(LIMITS) {
+                let cheaper = best.as_ref().is_none_or(|(_, least)| ratio < *least);
+                if accuracy.headline() <= limit && cheaper {
+                    *best = Some((cost.name.clone(), ratio));
+                }
+            }
+        }
+    }
+    found
+}
+
+/// A goal, judged.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GoalVerdict {
+    /// The fit.
+    pub fit: String,
+    /// Where its error is taken.
+    pub region: String,
+    /// What error that is.
+    pub yardstick: &'static str,
+    /// Largest error asked for.
+    pub error_asked: f64,
+    /// The error on the device, or in f32 where there is none.
+    pub error: f64,
+    /// Largest cost asked for, relative to the baseline.
+    pub cost_asked: f64,
+    /// The fit that the cost refers to.
+    pub baseline: String,
+    /// The cost on the device, relative to the baseline.
+    pub cost: Measured<f64>,
+    /// Why this error and this cost.
+    pub why: String,
+    /// Whether both are reached; not measured without a device, unless the error alone fails.
+    pub met: Measured<bool>,
+}
+
+/// Judges the goals of `effect`. A goal on a fit or region that was not studied is not met: its
+/// error is NaN.
+pub fn goals(effect: &Effect, study: &Study, costs: &Costs) -> Vec<GoalVerdict> {
+    let verdict = |goal: &Goal| {
+        let fit = study.candidates.iter().find(|fit| fit.name == goal.fit);
+        let accuracy = fit.and_then(|fit| {
+            let mut all = fit.regions.iter().chain(&fit.hard_cases);
+            all.find(|(name, _)| name == goal.region).map(|(_, accuracy)| accuracy)
+        });
+        let error = accuracy.map_or(f64::NAN, |accuracy| {
+            accuracy.headline_device.value().copied().unwrap_or_else(|| accuracy.headline())
+        });
+        let cost = costs.forms.iter().find(|cost| cost.name == goal.fit);
+        let ratio = match cost.map(|cost| &cost.device) {
+            Some(Measured::Value(timing)) => {
+                Measured::Value(timing.ratio.map_or(f64::NAN, |ratio| ratio.median))
+            }
+            Some(Measured::NotMeasured(reason)) => Measured::NotMeasured(reason.clone()),
+            None => Measured::NotMeasured("the fit was not timed".to_owned()),
+        };
+        let accurate = error <= goal.error;
+        let met = match &ratio {
+            _ if !accurate => Measured::Value(false),
+            Measured::Value(ratio) => Measured::Value(*ratio <= goal.cost),
+            Measured::NotMeasured(reason) => Measured::NotMeasured(reason.clone()),
+        };
+        GoalVerdict {
+            fit: goal.fit.to_owned(),
+            region: goal.region.to_owned(),
+            yardstick: accuracy.map_or("error", |accuracy| accuracy.yardstick.words()),
+            error_asked: goal.error,
+            error,
+            cost_asked: goal.cost,
+            baseline: cost.map(|cost| cost.baseline.clone()).unwrap_or_default(),
+            cost: ratio,
+            why: goal.why.to_owned(),
+            met,
+        }
+    };
+    effect.goals.iter().map(verdict).collect()
 }

@@ -10,11 +10,12 @@ use crate::gpu::Device;
 use crate::numeric::measured::Measured;
 use crate::project::{Approximated, Fitted, Project, Subject};
 use crate::validate::ValidateError;
-use crate::validate::accuracy::{Accuracy, GroundTruth, accuracy, residuals_f32};
+use crate::validate::accuracy::{Accuracy, Arithmetic, GroundTruth, accuracy, values};
+use crate::validate::draws::DrawsStudy;
 use crate::validate::family::{FormOverFamily, GroupSpread, over_family, spreads};
 use crate::validate::laws::{LawVerdict, judge};
 use crate::validate::parity::{Parity, parity};
-use crate::validate::regions::{Atlas, Grounds};
+use crate::validate::regions::{Atlas, Grounds, served};
 
 /// A candidate for a reference, judged.
 #[derive(Debug, Clone)]
@@ -33,6 +34,9 @@ pub struct CandidateStudy {
     pub regions: Vec<(String, Accuracy)>,
     /// Accuracy on the effect's hard cases, by the name of the set.
     pub hard_cases: Vec<(String, Accuracy)>,
+    /// Draws in the effect's regions and hard cases, by name, of a form that draws from a distribution,
+    /// which has no accuracy.
+    pub draws: Vec<(String, DrawsStudy)>,
     /// Device against f32 lanes over all regions together.
     pub parity: Measured<Parity>,
 }
@@ -148,14 +152,20 @@ fn one(
         }
         Measured::NotMeasured(reason) => Measured::NotMeasured(reason.clone()),
     };
-    let judged = |targets: Vec<(&'static str, GroundTruth)>| {
-        targets
-            .iter()
-            .map(|(name, target)| Ok(((*name).to_owned(), accuracy(candidate, target, &kernel)?)))
-            .collect::<Result<Vec<_>, ValidateError>>()
+    let mut draws = Vec::new();
+    let mut judged = |targets: Vec<(&'static str, GroundTruth)>| {
+        let mut found = Vec::new();
+        for (name, target) in targets {
+            if target.distributions.is_empty() {
+                found.push((name.to_owned(), accuracy(candidate, &target, &kernel)?));
+            } else {
+                draws.push((name.to_owned(), DrawsStudy::of(candidate, &target, &kernel)?));
+            }
+        }
+        Ok::<_, ValidateError>(found)
     };
-    let regions = judged(grounds.regions(&candidate.form)?)?;
-    let hard_cases = judged(grounds.hard_cases(&candidate.form)?)?;
+    let regions = judged(served(&grounds.regions, &candidate.form)?)?;
+    let hard_cases = judged(served(&grounds.hard_cases, &candidate.form)?)?;
     let parity = match (&kernel, grounds.everywhere(&candidate.form)?) {
         (Measured::Value(kernel), Some(target)) => {
             Measured::Value(parity(candidate, &target, kernel)?)
@@ -173,6 +183,7 @@ fn one(
         outcome: subject.outcome().cloned(),
         regions,
         hard_cases,
+        draws,
         parity,
     })
 }
@@ -184,7 +195,7 @@ fn judge_family(subject: &Subject, members: &[Member]) -> Result<FormOverFamily,
             ValidateError::NoMember { fit: subject.name.clone(), member: member.label.clone() }
         })?;
         let target = GroundTruth::of_table(&member.table, &candidate.form)?;
-        residuals.push(residuals_f32(candidate, &target)?);
+        residuals.push(target.residuals(&values(candidate, &target, Arithmetic::F32)?));
     }
     let outcomes = subject.fitted.as_ref().map(|Fitted { result, .. }| result.outcomes());
     Ok(over_family(&subject.name, members, outcomes.unwrap_or_default(), residuals))

@@ -89,7 +89,7 @@ fn an_alignment_is_what_it_says() {
     for bad in ["", "matrix = 3", "matrix = [[1, 2], [2, 4]]", "matrix = [[nan, 0], [0, 1]]"] {
         let error = Alignment::from_toml("a.toml", bad).expect_err("no alignment");
         assert!(
-            matches!(error, LowRankError::Mismatch { .. }) && error.to_string().contains("a.toml")
+            matches!(error, LowRankError::Unusable { .. }) && error.to_string().contains("a.toml")
         );
     }
 }

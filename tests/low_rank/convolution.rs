@@ -149,5 +149,5 @@ fn environments_that_cannot_weigh_are_refused() {
     let small = ConvolutionNorm::point_light(t.x(), t.y());
     let other = cross(20, degrees([0.0, 90.0]));
     let error = convolved(&other, Alignment::identity(), 1, &small, &ConvolvedOptions::default());
-    assert!(matches!(error, Err(LowRankError::Mismatch { .. })));
+    assert!(matches!(error, Err(LowRankError::Unusable { .. })));
 }

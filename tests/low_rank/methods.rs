@@ -101,7 +101,7 @@ fn a_weight_of_one_gives_the_decomposition_and_texels_without_weight_do_not_coun
     let fitted = weighted(&spoilt, STRAIGHT(), 1, &weight, stopping).expect("fits");
     let filled = fitted.product().expect("finite").channels[0].values[4];
     assert!((filled - 4.0).abs() < 1e-4, "{filled}");
-    assert!(matches!(Weight::new(t.x(), t.y(), vec![1.0]), Err(LowRankError::Mismatch { .. })));
+    assert!(matches!(Weight::new(t.x(), t.y(), vec![1.0]), Err(LowRankError::Unusable { .. })));
     assert!(matches!(
         Weight::new(t.x(), t.y(), vec![-1.0; 576]),
         Err(LowRankError::Setting { .. })

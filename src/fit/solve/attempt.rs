@@ -33,19 +33,22 @@ pub struct Attempt {
     pub iterations: u64,
 }
 
-/// Bates & Watts' relative offset under which a least-squares fit is at its optimum: the part of
-/// the residual that a first-order step can still remove, relative to the residual. 1e-3 is their
-/// advice for statistics; constants to six digits need less.
-const RELATIVE_OFFSET: f64 = 1e-6;
+/// Under which a point counts as optimal.
+#[derive(Clone, Copy)]
+pub(super) struct Tolerances {
+    /// Bates & Watts' relative offset: the part of the residual that a first-order step can still
+    /// remove, relative to the residual. 1e-3 is their advice for statistics; constants to six digits
+    /// need less.
+    offset: f64,
+    /// What a first-order step can still remove, relative to the target: under this it is rounding.
+    /// Without it a perfect fit, all of whose residuals are rounding, would never converge.
+    removable: f64,
+}
 
-/// The same for solvers that see only the cost, whose minimum they find to the root of its rounding.
-const RELATIVE_OFFSET_FROM_COST: f64 = 1e-5;
-
-/// What a first-order step can still remove, relative to the target: under this it is rounding.
-/// Without it a perfect fit, all of whose residuals are rounding, would never converge.
-const REMOVABLE: f64 = 1e-11;
-/// The same for solvers that see only the cost.
-const REMOVABLE_FROM_COST: f64 = 1e-8;
+/// For solvers that use derivatives.
+pub(super) const BY_DERIVATIVES: Tolerances = Tolerances { offset: 1e-6, removable: 1e-11 };
+/// For solvers that see only the cost, whose minimum they find to the root of its rounding.
+pub(super) const BY_COST: Tolerances = Tolerances { offset: 1e-5, removable: 1e-8 };
 
 impl Attempt {
     /// The best point that `problem` has seen, with the termination that its first-order optimality
@@ -55,40 +58,15 @@ impl Attempt {
         start: &DVector<f64>,
         iterations: u64,
         exhausted: bool,
-    ) -> Result<Self, FormError> {
-        let tolerances = (RELATIVE_OFFSET, REMOVABLE);
-        Self::within(problem, start, iterations, exhausted, tolerances)
-    }
-
-    /// [`Attempt::judged`] for a solver that uses no derivatives.
-    pub(super) fn judged_loosely(
-        problem: &Problem,
-        start: &DVector<f64>,
-        iterations: u64,
-        exhausted: bool,
-    ) -> Result<Self, FormError> {
-        let tolerances = (RELATIVE_OFFSET_FROM_COST, REMOVABLE_FROM_COST);
-        Self::within(problem, start, iterations, exhausted, tolerances)
-    }
-
-    fn within(
-        problem: &Problem,
-        start: &DVector<f64>,
-        iterations: u64,
-        exhausted: bool,
-        (offset, removable): (f64, f64),
+        within: Tolerances,
     ) -> Result<Self, FormError> {
         let Some(best) = problem.best() else {
-            return Ok(Self {
-                variables: start.clone(),
-                cost: f64::NAN,
-                termination: Termination::NonFinite,
-                iterations,
-            });
+            let (variables, termination) = (start.clone(), Termination::NonFinite);
+            return Ok(Self { variables, cost: f64::NAN, termination, iterations });
         };
         let optimal = |residuals: &DVector<f64>, jacobian: &DMatrix<f64>| {
-            tangent_part(residuals, jacobian) <= removable * problem.magnitude()
-                || relative_offset(residuals, jacobian) <= offset
+            tangent_part(residuals, jacobian) <= within.removable * problem.magnitude()
+                || relative_offset(residuals, jacobian) <= within.offset
         };
         let (residuals, jacobian) = problem.linearise(&best.variables)?;
         let judge = |termination| Self {
@@ -106,7 +84,7 @@ impl Attempt {
         if exhausted {
             return Ok(judge(Termination::IterationLimit));
         }
-        if problem.loss() != Loss::Minimax
+        if problem.loss != Loss::Minimax
             && let Some(polished) = polish(problem, &best, residuals, jacobian, optimal)?
         {
             let Best { variables, cost } = polished;

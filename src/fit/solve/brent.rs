@@ -1,11 +1,11 @@
 //! argmin's Brent minimisation, for one variable.
 
-use argmin::core::{CostFunction, Executor, IterState, State};
+use argmin::core::{CostFunction, IterState};
 use argmin::solver::brent::BrentOpt;
 use nalgebra::DVector;
 
-use super::attempt::Attempt;
-use super::scaled::{Scaled, give_up};
+use super::attempt::{Attempt, BY_COST, BY_DERIVATIVES};
+use super::scaled::{Scaled, give_up, iterations};
 use crate::fit::problem::Problem;
 use crate::form::FormError;
 
@@ -37,15 +37,12 @@ pub(super) fn solve(
     let line = Line(Scaled::columns(problem, start.clone())?);
     let cost = problem.best().map_or(1.0, |best| best.cost);
     let Some((low, high)) = give_up(bracket(&line, (2.0 * cost).sqrt().max(1e-12)))? else {
-        return Attempt::judged(problem, start, 0, false);
+        return Attempt::judged(problem, start, 0, false, BY_DERIVATIVES);
     };
     let solver = BrentOpt::new(low, high).set_tolerance(1e-10, 1e-14 * (high - low));
-    let run = Executor::new(line, solver)
-        .configure(|state: Iteration| state.max_iters(max_iterations))
-        .ctrlc(false)
-        .run();
-    let iterations = give_up(run)?.map_or(0, |result| result.state().get_iter());
-    Attempt::judged_loosely(problem, start, iterations, iterations >= max_iterations)
+    let begin = |state: Iteration| state.max_iters(max_iterations);
+    let iterations = iterations(line, solver, begin)?.unwrap_or(0);
+    Attempt::judged(problem, start, iterations, iterations >= max_iterations, BY_COST)
 }
 
 /// An interval about 0 that holds a minimum: grown downhill until the cost rises again.

@@ -1,16 +1,13 @@
 //! Gauss–Newton with a step by orthogonal decomposition and a backtracking line search.
 //!
-//! argmin drives it; the iteration is ours because argmin's inverts JᵀJ, which squares the condition
-//! number, and stops on an absolute difference of the cost, which has a unit.
+//! argmin's inverts JᵀJ, which squares the condition number, and stops on an absolute difference of the
+//! cost, which has a unit.
 
-use argmin::core::{
-    Error, Executor, IterState, Jacobian, KV, Operator, Problem as Counted, Solver, State,
-    TerminationReason, TerminationStatus,
-};
+use argmin::core::Error;
 use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
-use super::attempt::{Attempt, relative_offset};
-use super::scaled::{Scaled, give_up};
+use super::attempt::{Attempt, BY_DERIVATIVES, relative_offset};
+use super::scaled::{Scaled, divide_columns, give_up};
 use crate::fit::problem::Problem;
 use crate::form::FormError;
 
@@ -25,76 +22,6 @@ const SVD_ITERATIONS: usize = 1000;
 /// Singular values below this part of the largest are left out of the step.
 const RANK: f64 = 1e-13;
 
-type Iteration = IterState<DVector<f64>, (), DMatrix<f64>, (), DVector<f64>, f64>;
-
-struct GaussNewton;
-
-impl<O> Solver<O, Iteration> for GaussNewton
-where
-    O: Operator<Param = DVector<f64>, Output = DVector<f64>>
-        + Jacobian<Param = DVector<f64>, Jacobian = DMatrix<f64>>,
-{
-    fn name(&self) -> &str {
-        "Gauss-Newton with backtracking"
-    }
-
-    fn next_iter(
-        &mut self,
-        problem: &mut Counted<O>,
-        mut state: Iteration,
-    ) -> Result<(Iteration, Option<KV>), Error> {
-        let at = state.take_param().unwrap_or_default();
-        let residuals = problem.apply(&at)?;
-        let jacobian = problem.jacobian(&at)?;
-        let cost = 0.5 * residuals.norm_squared();
-        let finite = cost.is_finite() && jacobian.iter().all(|x| x.is_finite());
-        if !finite || relative_offset(&residuals, &jacobian) <= ENOUGH {
-            let done = state.param(at).cost(cost);
-            return Ok((done.terminate_with(TerminationReason::SolverConverged), None));
-        }
-        let step = least_squares_step(&jacobian, &residuals);
-        let decrease = -jacobian.tr_mul(&residuals).dot(&step);
-        let mut length = 1.0;
-        for _ in 0..HALVINGS {
-            let next = &at + &step * length;
-            let next_cost = 0.5 * problem.apply(&next)?.norm_squared();
-            if next_cost <= cost - SUFFICIENT * length * decrease && next != at {
-                return Ok((state.param(next).cost(next_cost), None));
-            }
-            length *= 0.5;
-        }
-        let done = state.param(at).cost(cost);
-        Ok((done.terminate_with(TerminationReason::SolverExit("no step".into())), None))
-    }
-
-    fn terminate(&mut self, _state: &Iteration) -> TerminationStatus {
-        TerminationStatus::NotTerminated
-    }
-}
-
-/// −J⁺r, of least norm in the column-scaled variables where J is singular.
-pub(super) fn least_squares_step(
-    jacobian: &DMatrix<f64>,
-    residuals: &DVector<f64>,
-) -> DVector<f64> {
-    let lengths: Vec<f64> = jacobian
-        .column_iter()
-        .map(|column| Some(column.norm()).filter(|l| *l > 0.0).unwrap_or(1.0))
-        .collect();
-    let mut unit = jacobian.clone();
-    for (mut column, length) in unit.column_iter_mut().zip(&lengths) {
-        column /= *length;
-    }
-    let solve =
-        |svd: SVD<f64, Dyn, Dyn>| svd.solve(residuals, RANK * svd.singular_values.max()).ok();
-    let svd = unit.try_svd(true, true, f64::EPSILON, SVD_ITERATIONS);
-    let mut step = svd.and_then(solve).unwrap_or_else(|| DVector::zeros(lengths.len()));
-    for (s, length) in step.iter_mut().zip(&lengths) {
-        *s /= -length;
-    }
-    step
-}
-
 /// Runs Gauss–Newton from `start`.
 pub(super) fn solve(
     problem: &Problem,
@@ -102,11 +29,59 @@ pub(super) fn solve(
     max_iterations: u64,
 ) -> Result<Attempt, FormError> {
     let scaled = Scaled::columns(problem, start.clone())?;
-    let origin = DVector::zeros(scaled.variables());
-    let run = Executor::new(scaled, GaussNewton)
-        .configure(|state: Iteration| state.param(origin).max_iters(max_iterations))
-        .ctrlc(false)
-        .run();
-    let iterations = give_up(run)?.map_or(0, |result| result.state().get_iter());
-    Attempt::judged(problem, start, iterations, iterations >= max_iterations)
+    let iterations = give_up(iterate(&scaled, max_iterations))?.unwrap_or(0);
+    let exhausted = iterations >= max_iterations;
+    Attempt::judged(problem, start, iterations, exhausted, BY_DERIVATIVES)
+}
+
+/// Iterations until none goes on.
+fn iterate(scaled: &Scaled, max_iterations: u64) -> Result<u64, Error> {
+    let mut at = DVector::zeros(scaled.variables());
+    for iteration in 1..=max_iterations {
+        match next(scaled, &at)? {
+            Some(next) => at = next,
+            None => return Ok(iteration),
+        }
+    }
+    Ok(max_iterations)
+}
+
+/// The point after `at`; none where the form is not finite, at the optimum, and if no step helps.
+fn next(scaled: &Scaled, at: &DVector<f64>) -> Result<Option<DVector<f64>>, Error> {
+    let (residuals, jacobian) = scaled.linearised(at, |r, j| (r.clone(), j.clone()))?;
+    let cost = 0.5 * residuals.norm_squared();
+    let finite = cost.is_finite() && jacobian.iter().all(|x| x.is_finite());
+    if !finite || relative_offset(&residuals, &jacobian) <= ENOUGH {
+        return Ok(None);
+    }
+    let step = least_squares_step(&jacobian, &residuals);
+    let decrease = -jacobian.tr_mul(&residuals).dot(&step);
+    let mut length = 1.0;
+    for _ in 0..HALVINGS {
+        let next = at + &step * length;
+        let next_cost = 0.5 * scaled.linearised(&next, |residuals, _| residuals.norm_squared())?;
+        if next_cost <= cost - SUFFICIENT * length * decrease && next != *at {
+            return Ok(Some(next));
+        }
+        length *= 0.5;
+    }
+    Ok(None)
+}
+
+/// −J⁺r, of least norm in the column-scaled variables where J is singular.
+pub(super) fn least_squares_step(
+    jacobian: &DMatrix<f64>,
+    residuals: &DVector<f64>,
+) -> DVector<f64> {
+    let norms = jacobian.column_iter().map(|column| column.norm());
+    let lengths = norms.map(|norm| if norm > 0.0 { norm } else { 1.0 });
+    let lengths = DVector::from_iterator(jacobian.ncols(), lengths);
+    let mut unit = jacobian.clone();
+    divide_columns(&mut unit, &lengths);
+    let solve =
+        |svd: SVD<f64, Dyn, Dyn>| svd.solve(residuals, RANK * svd.singular_values.max()).ok();
+    let svd = unit.try_svd(true, true, f64::EPSILON, SVD_ITERATIONS);
+    let mut step = svd.and_then(solve).unwrap_or_else(|| DVector::zeros(lengths.len()));
+    step.component_div_assign(&-lengths);
+    step
 }

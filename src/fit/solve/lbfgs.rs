@@ -1,12 +1,12 @@
 //! argmin's L-BFGS with Moré–Thuente's line search, in variables in which the problem is round.
 
-use argmin::core::{Executor, IterState, State};
+use argmin::core::IterState;
 use argmin::solver::linesearch::MoreThuenteLineSearch;
 use argmin::solver::quasinewton::LBFGS;
 use nalgebra::DVector;
 
-use super::attempt::{Attempt, Termination};
-use super::scaled::{Scaled, give_up};
+use super::attempt::{Attempt, BY_DERIVATIVES, Termination};
+use super::scaled::{self, Scaled, give_up};
 use crate::fit::problem::Problem;
 use crate::form::FormError;
 
@@ -34,15 +34,11 @@ pub(super) fn solve(
             .with_tolerance_grad(0.0)
             .and_then(|solver| solver.with_tolerance_cost(1e-16 * before));
         let Some(solver) = give_up(solver)? else { break };
-        let run = Executor::new(scaled, solver)
-            .configure(|state: Iteration| {
-                state.param(origin).max_iters(max_iterations - iterations)
-            })
-            .ctrlc(false)
-            .run();
-        iterations += give_up(run)?.map_or(1, |result| result.state().get_iter());
-        iterations = iterations.min(max_iterations);
-        let judged = Attempt::judged(problem, start, iterations, iterations >= max_iterations)?;
+        let left = max_iterations - iterations;
+        let begin = |state: Iteration| state.param(origin).max_iters(left);
+        iterations += scaled::iterations(scaled, solver, begin)?.unwrap_or(1).min(left);
+        let exhausted = iterations >= max_iterations;
+        let judged = Attempt::judged(problem, start, iterations, exhausted, BY_DERIVATIVES)?;
         at.copy_from(&judged.variables);
         let go_on = judged.termination == Termination::Stalled && judged.cost < before;
         attempt = Some(judged);
@@ -50,8 +46,6 @@ pub(super) fn solve(
             break;
         }
     }
-    match attempt {
-        Some(attempt) => Ok(attempt),
-        None => Attempt::judged(problem, start, iterations, false),
-    }
+    let unseen = || Attempt::judged(problem, start, iterations, false, BY_DERIVATIVES);
+    attempt.map_or_else(unseen, Ok)
 }

@@ -9,7 +9,7 @@ use std::cell::RefCell;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::{DMatrix, DVector, Dyn, storage::Owned};
 
-use super::attempt::Attempt;
+use super::attempt::{Attempt, BY_DERIVATIVES};
 use crate::fit::problem::Problem;
 use crate::form::FormError;
 
@@ -87,5 +87,6 @@ pub(super) fn solve(
         return Err(error);
     }
     let exhausted = report.termination == TerminationReason::LostPatience;
-    Attempt::judged(problem, start, report.number_of_evaluations as u64, exhausted)
+    let iterations = report.number_of_evaluations as u64;
+    Attempt::judged(problem, start, iterations, exhausted, BY_DERIVATIVES)
 }

@@ -7,15 +7,11 @@
 //! converges quadratically. It has converged when the linear problem cannot lower the largest error
 //! any further: a certificate of first-order optimality on the points.
 
-use argmin::core::{
-    Error, Executor, Gradient, IterState, KV, Problem as Counted, Solver, State, TerminationReason,
-};
 use nalgebra::{DMatrix, DVector};
 
-use super::attempt::{Attempt, Termination};
-use super::chebyshev;
-use super::levenberg_marquardt;
-use super::scaled::give_up;
+use super::attempt::{Attempt, BY_DERIVATIVES, Termination};
+use super::scaled::divide_columns;
+use super::{chebyshev, levenberg_marquardt};
 use crate::fit::loss::Loss;
 use crate::fit::problem::Problem;
 use crate::form::FormError;
@@ -31,90 +27,22 @@ const ROUNDING: f64 = 1e-13;
 /// Halvings of a step before it is given up.
 const HALVINGS: u32 = 30;
 
-/// The errors and their Jacobian, as argmin passes them to [`Exchange`].
-struct Errors<'p, 'a>(&'p Problem<'a>);
-
-impl Gradient for Errors<'_, '_> {
-    type Param = DVector<f64>;
-    type Gradient = (DVector<f64>, DMatrix<f64>);
-
-    fn gradient(&self, at: &DVector<f64>) -> Result<Self::Gradient, Error> {
-        Ok(self.0.linearise(at)?)
-    }
-}
-
-type Iteration = IterState<DVector<f64>, (), (), (), (), f64>;
-
-/// Newton's method on the levelled error.
-struct Exchange<'p, 'a> {
-    problem: &'p Problem<'a>,
-    converged: bool,
-}
-
-impl Solver<Errors<'_, '_>, Iteration> for Exchange<'_, '_> {
-    fn name(&self) -> &str {
-        "exchange on the linearised errors"
-    }
-
-    fn next_iter(
-        &mut self,
-        problem: &mut Counted<Errors<'_, '_>>,
-        mut state: Iteration,
-    ) -> Result<(Iteration, Option<KV>), Error> {
-        let at = state.take_param().unwrap_or_default();
-        let (errors, jacobian) = problem.gradient(&at)?;
-        let cost = errors.amax();
-        let rounding = ROUNDING * self.problem.magnitude() / (self.problem.points() as f64).sqrt();
-        if cost <= rounding {
-            self.converged = true;
-            let done = state.param(at).cost(cost);
-            return Ok((done.terminate_with(TerminationReason::SolverConverged), None));
-        }
-        let Some((step, bound)) = step(&errors, &jacobian) else {
-            let done = state.param(at).cost(cost);
-            return Ok((
-                done.terminate_with(TerminationReason::SolverExit("singular".into())),
-                None,
-            ));
-        };
-        if cost - bound <= (GAP * cost).max(rounding) {
-            self.converged = true;
-            let done = state.param(at).cost(cost);
-            return Ok((done.terminate_with(TerminationReason::SolverConverged), None));
-        }
-        let mut length = 1.0;
-        for _ in 0..HALVINGS {
-            let next = &at + &step * length;
-            let next_cost = self.problem.cost(&next)?;
-            if next_cost < cost {
-                return Ok((state.param(next).cost(next_cost), None));
-            }
-            length *= 0.5;
-        }
-        let done = state.param(at).cost(cost);
-        Ok((done.terminate_with(TerminationReason::SolverExit("no step".into())), None))
-    }
-}
-
 /// The step to the solution of the linearised problem, and its levelled error.
 fn step(errors: &DVector<f64>, jacobian: &DMatrix<f64>) -> Option<(DVector<f64>, f64)> {
     if jacobian.nrows() <= jacobian.ncols() || !jacobian.iter().all(|x| x.is_finite()) {
         return None;
     }
-    let mut unit = jacobian.clone();
-    let mut lengths = Vec::with_capacity(unit.ncols());
-    for mut column in unit.column_iter_mut() {
-        let length = column.norm();
-        if length == 0.0 {
-            return None;
-        }
-        column /= length;
-        lengths.push(length);
+    let norms = jacobian.column_iter().map(|column| column.norm());
+    let lengths = DVector::from_iterator(jacobian.ncols(), norms);
+    if lengths.iter().any(|length| *length == 0.0) {
+        return None;
     }
+    let mut unit = jacobian.clone();
+    divide_columns(&mut unit, &lengths);
     let qr = unit.qr();
     let level = chebyshev::approximate(&qr.q(), errors)?;
     let mut step = qr.r().solve_upper_triangular(&level.coefficients)?;
-    step.iter_mut().zip(&lengths).for_each(|(s, length)| *s /= length);
+    step.component_div_assign(&lengths);
     step.iter().all(|s| s.is_finite()).then_some((step, level.error))
 }
 
@@ -124,30 +52,63 @@ pub(super) fn solve(
     start: &DVector<f64>,
     max_iterations: u64,
 ) -> Result<Attempt, FormError> {
-    let mut iterations = continuation(problem, start, max_iterations)?;
+    let smoothed = continuation(problem, start, max_iterations)?;
     let Some(best) = problem.best() else {
-        return Attempt::judged(problem, start, iterations, false);
+        return Attempt::judged(problem, start, smoothed, false, BY_DERIVATIVES);
     };
-    let exchange = Exchange { problem, converged: false };
-    let run = Executor::new(Errors(problem), exchange)
-        .configure(|state: Iteration| state.param(best.variables).max_iters(max_iterations))
-        .ctrlc(false)
-        .run();
-    let (converged, exhausted) = match give_up(run)? {
-        None => (false, false),
-        Some(result) => {
-            let count = result.state().get_iter();
-            iterations += count;
-            (result.solver().converged, count >= max_iterations)
-        }
-    };
-    let mut attempt = Attempt::judged(problem, start, iterations, exhausted)?;
+    let (iterations, converged) = exchange(problem, best.variables, max_iterations)?;
+    let exhausted = iterations >= max_iterations;
+    let total = smoothed + iterations;
+    let mut attempt = Attempt::judged(problem, start, total, exhausted, BY_DERIVATIVES)?;
     attempt.termination = match (converged, exhausted) {
         (true, _) => Termination::Converged,
         (false, true) => Termination::IterationLimit,
         (false, false) => Termination::Stalled,
     };
     Ok(attempt)
+}
+
+/// Newton's method on the levelled error: its iterations, and whether it has converged.
+fn exchange(
+    problem: &Problem,
+    mut at: DVector<f64>,
+    max_iterations: u64,
+) -> Result<(u64, bool), FormError> {
+    let rounding = ROUNDING * problem.magnitude() / (problem.points() as f64).sqrt();
+    for iteration in 1..=max_iterations {
+        let (errors, jacobian) = problem.linearise(&at)?;
+        let cost = errors.amax();
+        if cost <= rounding {
+            return Ok((iteration, true));
+        }
+        let Some((step, bound)) = step(&errors, &jacobian) else { return Ok((iteration, false)) };
+        if cost - bound <= (GAP * cost).max(rounding) {
+            return Ok((iteration, true));
+        }
+        match lower(problem, &at, &step, cost)? {
+            Some(next) => at = next,
+            None => return Ok((iteration, false)),
+        }
+    }
+    Ok((max_iterations, false))
+}
+
+/// The first point that costs less than `cost` along `step`, halved as often as that takes.
+fn lower(
+    problem: &Problem,
+    at: &DVector<f64>,
+    step: &DVector<f64>,
+    cost: f64,
+) -> Result<Option<DVector<f64>>, FormError> {
+    let mut length = 1.0;
+    for _ in 0..HALVINGS {
+        let next = at + step * length;
+        if problem.cost(&next)? < cost {
+            return Ok(Some(next));
+        }
+        length *= 0.5;
+    }
+    Ok(None)
 }
 
 /// Least squares, then Lawson's weights; returns the iterations. Every point on the way is offered
@@ -161,7 +122,7 @@ fn continuation(
     let mut at = start.clone();
     let mut iterations = 0;
     for round in 0..=LAWSON {
-        let factors = problem.factors().iter().zip(&weights).map(|(f, w)| f * f64::sqrt(*w));
+        let factors = problem.factors.iter().zip(&weights).map(|(f, w)| f * f64::sqrt(*w));
         let smooth = problem.with_loss(Loss::LeastSquares, factors.collect());
         let budget = if round == 0 { max_iterations } else { LAWSON_BUDGET };
         let attempt = levenberg_marquardt::solve(&smooth, &at, budget)?;

@@ -20,15 +20,17 @@ mod gauss_newton;
 mod lbfgs;
 mod levenberg_marquardt;
 mod minimax;
-mod multi_start;
 mod nelder_mead;
 mod scaled;
 mod trust_region;
 
 pub use attempt::{Attempt, Termination};
-pub use multi_start::starts;
+pub(super) use scaled::divide_columns;
 
-use super::bounds::Transform;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::bounds::{Bounds, Transform};
 use super::loss::Loss;
 use super::problem::Problem;
 use crate::form::FormError;
@@ -106,6 +108,25 @@ pub struct Solution {
     pub solver: String,
 }
 
+impl Solution {
+    fn of(problem: &Problem, attempt: Attempt, solver: String) -> Self {
+        let Attempt { cost, termination, iterations, .. } = attempt;
+        let (constants, evaluations) =
+            (problem.constants(&attempt.variables), problem.evaluations());
+        Self { constants, cost, termination, iterations, evaluations, at_bound: Vec::new(), solver }
+    }
+
+    /// What `next` made of it if that is kept, else itself; the evaluations of both count.
+    fn then(self, next: Self, kept: bool) -> Self {
+        let evaluations = self.evaluations + next.evaluations;
+        if !kept {
+            return Self { evaluations, ..self };
+        }
+        let (iterations, solver) = (self.iterations + next.iterations, self.solver);
+        Self { iterations, evaluations, solver, ..next }
+    }
+}
+
 /// Distance to a bound, relative to the width, from which pinning is tried.
 const NEAR_BOUND: f64 = 1e-3;
 
@@ -118,29 +139,30 @@ pub fn solve_from(
     kind: SolverKind,
     max_iterations: u64,
 ) -> Result<Solution, FormError> {
-    if problem.variables() == 0 {
-        return evaluated(problem);
-    }
-    let (attempt, solver) = attempt(problem, kind, max_iterations)?;
-    let constants = problem.constants(&attempt.variables);
-    let solution = Solution {
-        constants,
-        cost: attempt.cost,
-        termination: attempt.termination,
-        iterations: attempt.iterations,
-        evaluations: problem.evaluations(),
-        at_bound: Vec::new(),
-        solver,
-    };
+    let solution = solved(problem, kind, max_iterations)?;
     if solution.termination == Termination::NonFinite {
         return Ok(solution);
     }
     let solution = pin_to_bounds(problem, solution, kind, max_iterations)?;
-    let bounded = problem.transforms().iter().any(|t| *t != Transform::Identity);
+    let bounded = problem.transforms.iter().any(|t| *t != Transform::Identity);
     if bounded && solution.termination == Termination::Stalled && solution.at_bound.is_empty() {
         return finish_unbounded(problem, solution, max_iterations);
     }
     Ok(solution)
+}
+
+/// By the solver as it is; the only solution where nothing varies.
+fn solved(problem: &Problem, kind: SolverKind, max_iterations: u64) -> Result<Solution, FormError> {
+    if problem.variables() > 0 {
+        let (attempt, solver) = attempt(problem, kind, max_iterations)?;
+        return Ok(Solution::of(problem, attempt, solver));
+    }
+    let variables = problem.start();
+    let cost = problem.cost(&variables)?;
+    let termination =
+        if cost.is_finite() { Termination::Converged } else { Termination::NonFinite };
+    let only = Attempt { variables, cost, termination, iterations: 0 };
+    Ok(Solution::of(problem, only, "none (nothing is free)".to_owned()))
 }
 
 /// Near a bound but not on it the transformation is so curved that a solver can stall: from there
@@ -151,34 +173,14 @@ fn finish_unbounded(
     stalled: Solution,
     max_iterations: u64,
 ) -> Result<Solution, FormError> {
-    if problem.loss() == Loss::Minimax {
+    if problem.loss == Loss::Minimax {
         return Ok(stalled);
     }
     let rest = problem.unbounded(stalled.constants.clone());
-    let attempt = levenberg_marquardt::solve(&rest, &rest.start(), max_iterations)?;
-    let constants = rest.constants(&attempt.variables);
-    let evaluations = stalled.evaluations + rest.evaluations();
-    let inside = problem.transforms().iter().zip(&constants).all(|(t, c)| t.contains(*c));
-    if inside && attempt.termination == Termination::Converged && attempt.cost <= stalled.cost {
-        let iterations = stalled.iterations + attempt.iterations;
-        let (cost, termination) = (attempt.cost, attempt.termination);
-        return Ok(Solution { constants, cost, termination, iterations, evaluations, ..stalled });
-    }
-    Ok(Solution { evaluations, ..stalled })
-}
-
-/// The only solution where nothing is free.
-fn evaluated(problem: &Problem) -> Result<Solution, FormError> {
-    let cost = problem.cost(&problem.start())?;
-    Ok(Solution {
-        constants: problem.constants(&problem.start()),
-        cost,
-        termination: if cost.is_finite() { Termination::Converged } else { Termination::NonFinite },
-        iterations: 0,
-        evaluations: problem.evaluations(),
-        at_bound: Vec::new(),
-        solver: "none (nothing is free)".to_owned(),
-    })
+    let found = solved(&rest, SolverKind::LevenbergMarquardt, max_iterations)?;
+    let inside = problem.transforms.iter().zip(&found.constants).all(|(t, c)| t.contains(*c));
+    let kept = inside && found.termination == Termination::Converged && found.cost <= stalled.cost;
+    Ok(stalled.then(found, kept))
 }
 
 /// Puts the constants that are next to a bound on it, fits the others again, and keeps the result
@@ -191,8 +193,8 @@ fn pin_to_bounds(
 ) -> Result<Solution, FormError> {
     let mut constants = free.constants.clone();
     let mut pinned = Vec::new();
-    for (i, (constant, transform)) in constants.iter_mut().zip(problem.transforms()).enumerate() {
-        if let Some((bound, _)) = transform.bound_at(*constant, NEAR_BOUND) {
+    for (i, (constant, transform)) in constants.iter_mut().zip(&problem.transforms).enumerate() {
+        if let Some(bound) = transform.bound_at(*constant, NEAR_BOUND) {
             *constant = bound;
             pinned.push(i);
         }
@@ -200,24 +202,10 @@ fn pin_to_bounds(
     if pinned.is_empty() {
         return Ok(free);
     }
-    let rest = problem.pinned(constants, &pinned);
-    let (constants, cost, termination, iterations) = if rest.variables() == 0 {
-        let constants = rest.constants(&rest.start());
-        (constants, rest.cost(&rest.start())?, Termination::Converged, 0)
-    } else {
-        let kind = if kind == SolverKind::Brent { SolverKind::Auto } else { kind };
-        let (attempt, _) = attempt(&rest, kind, max_iterations)?;
-        (rest.constants(&attempt.variables), attempt.cost, attempt.termination, attempt.iterations)
-    };
-    let evaluations = free.evaluations + rest.evaluations();
-    if cost <= free.cost * (1.0 + 1e-9) {
-        let iterations = free.iterations + iterations;
-        let solver = free.solver;
-        let at_bound = pinned;
-        Ok(Solution { constants, cost, termination, iterations, evaluations, at_bound, solver })
-    } else {
-        Ok(Solution { evaluations, ..free })
-    }
+    let kind = if kind == SolverKind::Brent { SolverKind::Auto } else { kind };
+    let found = solved(&problem.pinned(constants, &pinned), kind, max_iterations)?;
+    let kept = found.cost <= free.cost * (1.0 + 1e-9);
+    Ok(free.then(Solution { at_bound: pinned, ..found }, kept))
 }
 
 type Solve = fn(&Problem, &nalgebra::DVector<f64>, u64) -> Result<Attempt, FormError>;
@@ -242,7 +230,7 @@ fn attempt(
 
 fn automatic(problem: &Problem, max_iterations: u64) -> Result<(Attempt, String), FormError> {
     let start = problem.start();
-    if problem.loss() == Loss::Minimax {
+    if problem.loss == Loss::Minimax {
         let attempt = minimax::solve(problem, &start, max_iterations)?;
         let why = "minimax exchange (auto: the loss is not smooth; Lawson continuation by \
                    levenberg_marquardt first)";
@@ -269,4 +257,31 @@ fn automatic(problem: &Problem, max_iterations: u64) -> Result<(Attempt, String)
         }
     }
     Ok((best, solver.into()))
+}
+
+/// The given start and `count − 1` further ones, seeded.
+///
+/// Between two bounds they are uniform; beyond one bound the distance to it is multiplied by 10^t, t
+/// uniform in [−1, 1]; without bounds they are within twice the start's magnitude (or 1, if that is
+/// 0) of the start.
+pub fn starts(start: &[f64], bounds: &[Bounds], count: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut all = vec![start.to_vec()];
+    while all.len() < count {
+        let next = start.iter().zip(bounds).map(|(s, b)| {
+            let t: f64 = random.random_range(-1.0..1.0);
+            let apart = |bound: f64| if *s == bound { 1.0 } else { *s - bound };
+            match (b.lower, b.upper) {
+                (Some(low), Some(high)) => low + (high - low) * 0.5 * (1.0 + t),
+                (Some(bound), None) | (None, Some(bound)) => {
+                    bound
+                        + apart(bound).abs().copysign(if b.lower.is_some() { 1.0 } else { -1.0 })
+                            * 10f64.powf(t)
+                }
+                (None, None) => s + 2.0 * t * if *s == 0.0 { 1.0 } else { s.abs() },
+            }
+        });
+        all.push(next.collect());
+    }
+    all
 }

@@ -1,11 +1,11 @@
 //! argmin's Nelder–Mead, restarted at its best point until that no longer helps.
 
-use argmin::core::{Executor, IterState, State};
+use argmin::core::IterState;
 use argmin::solver::neldermead::NelderMead;
 use nalgebra::DVector;
 
-use super::attempt::{Attempt, Termination};
-use super::scaled::{Scaled, give_up};
+use super::attempt::{Attempt, BY_COST, Termination};
+use super::scaled::{self, Scaled, give_up};
 use crate::fit::loss::Loss;
 use crate::fit::problem::Problem;
 use crate::form::FormError;
@@ -41,18 +41,16 @@ pub(super) fn solve(
         }
         let solver = NelderMead::new(simplex).with_sd_tolerance(1e-14 * best.cost);
         let Some(solver) = give_up(solver)? else { break };
-        let run = Executor::new(scaled, solver)
-            .configure(|state: Iteration| state.max_iters(budget - iterations))
-            .ctrlc(false)
-            .run();
-        iterations += give_up(run)?.map_or(0, |result| result.state().get_iter());
+        let begin = |state: Iteration| state.max_iters(budget - iterations);
+        iterations += scaled::iterations(scaled, solver, begin)?.unwrap_or(0);
         let Some(best) = problem.best() else { break };
         at = best.variables;
     }
-    let mut attempt = Attempt::judged_loosely(problem, start, iterations, iterations >= budget)?;
+    let exhausted = iterations >= budget;
+    let mut attempt = Attempt::judged(problem, start, iterations, exhausted, BY_COST)?;
     // A simplex that has closed says nothing about a gradient; under a loss that is not smooth no
     // criterion holds, and the fit may not call itself converged.
-    if problem.loss() == Loss::Minimax && attempt.termination == Termination::Converged {
+    if problem.loss == Loss::Minimax && attempt.termination == Termination::Converged {
         attempt.termination = Termination::Stalled;
     }
     Ok(attempt)
@@ -60,7 +58,7 @@ pub(super) fn solve(
 
 /// Norm of the residuals, from the cost; for the minimax loss as if all were the largest.
 fn residual_size(problem: &Problem, cost: f64) -> f64 {
-    match problem.loss() {
+    match problem.loss {
         Loss::Minimax => cost * (problem.points() as f64).sqrt(),
         _ => (2.0 * cost).sqrt(),
     }

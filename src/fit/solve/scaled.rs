@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use argmin::core::{CostFunction, Error, Gradient, Hessian, Jacobian, Operator};
+use argmin::core::{CostFunction, Error, Executor, Gradient, Hessian, Solver, State};
 use nalgebra::{DMatrix, DVector};
 
 use crate::fit::problem::Problem;
@@ -32,9 +32,6 @@ pub(super) struct Scaled<'p, 'a> {
 
 impl<'p, 'a> Scaled<'p, 'a> {
     /// Scaled so that the Jacobian's columns have length 1 at `origin`.
-    ///
-    /// # Errors
-    /// [`FormError`] from the model.
     pub(super) fn columns(
         problem: &'p Problem<'a>,
         origin: DVector<f64>,
@@ -46,19 +43,13 @@ impl<'p, 'a> Scaled<'p, 'a> {
 
     /// Scaled so that the Jacobian's columns are orthonormal at `origin`; directions without
     /// effect keep the scale of their columns.
-    ///
-    /// # Errors
-    /// [`FormError`] from the model.
     pub(super) fn orthonormal(
         problem: &'p Problem<'a>,
         origin: DVector<f64>,
     ) -> Result<Self, FormError> {
-        let (_, jacobian) = problem.linearise(&origin)?;
-        let lengths = lengths(&jacobian);
-        let mut unit = jacobian;
-        for (mut column, length) in unit.column_iter_mut().zip(lengths.iter()) {
-            column /= *length;
-        }
+        let (_, mut unit) = problem.linearise(&origin)?;
+        let lengths = lengths(&unit);
+        divide_columns(&mut unit, &lengths);
         let mut basis = DMatrix::from_diagonal(&lengths.map(|length| 1.0 / length));
         let finite = unit.iter().all(|x| x.is_finite());
         let triangle = unit.qr().r();
@@ -100,7 +91,8 @@ impl<'p, 'a> Scaled<'p, 'a> {
         &self.origin + &self.basis * z
     }
 
-    fn linearised<T>(
+    /// Pseudo-residuals and Jacobian at a point.
+    pub(super) fn linearised<T>(
         &self,
         z: &DVector<f64>,
         take: impl FnOnce(&DVector<f64>, &DMatrix<f64>) -> T,
@@ -122,13 +114,16 @@ impl<'p, 'a> Scaled<'p, 'a> {
 
 /// Column norms; 1 for a column without effect or not finite.
 fn lengths(jacobian: &DMatrix<f64>) -> DVector<f64> {
-    DVector::from_iterator(
-        jacobian.ncols(),
-        jacobian.column_iter().map(|column| {
-            let length = column.norm();
-            if length.is_finite() && length > 0.0 { length } else { 1.0 }
-        }),
-    )
+    let length = |norm: f64| if norm.is_finite() && norm > 0.0 { norm } else { 1.0 };
+    let columns = jacobian.column_iter().map(|column| length(column.norm()));
+    DVector::from_iterator(jacobian.ncols(), columns)
+}
+
+/// Each column over its own of `lengths`.
+pub(in crate::fit) fn divide_columns(matrix: &mut DMatrix<f64>, lengths: &DVector<f64>) {
+    for (mut column, length) in matrix.column_iter_mut().zip(lengths.iter()) {
+        column /= *length;
+    }
 }
 
 impl CostFunction for Scaled<'_, '_> {
@@ -139,24 +134,6 @@ impl CostFunction for Scaled<'_, '_> {
         self.require_budget()?;
         let cost = self.problem.cost(&self.point(z))?;
         Ok(if cost.is_finite() { cost } else { NOT_FINITE })
-    }
-}
-
-impl Operator for Scaled<'_, '_> {
-    type Param = DVector<f64>;
-    type Output = DVector<f64>;
-
-    fn apply(&self, z: &DVector<f64>) -> Result<DVector<f64>, Error> {
-        self.linearised(z, |residuals, _| residuals.clone())
-    }
-}
-
-impl Jacobian for Scaled<'_, '_> {
-    type Param = DVector<f64>;
-    type Jacobian = DMatrix<f64>;
-
-    fn jacobian(&self, z: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
-        self.linearised(z, |_, jacobian| jacobian.clone())
     }
 }
 
@@ -187,9 +164,20 @@ impl Hessian for Scaled<'_, '_> {
 pub(super) fn give_up<T>(result: Result<T, Error>) -> Result<Option<T>, FormError> {
     match result {
         Ok(value) => Ok(Some(value)),
-        Err(error) => match error.downcast::<FormError>() {
-            Ok(form) => Err(form),
-            Err(_) => Ok(None),
-        },
+        Err(error) => error.downcast().map_or(Ok(None), Err),
     }
+}
+
+/// Runs a solver of argmin on `problem`, from the state as `configure` makes it: its iterations, none if
+/// it gave up.
+pub(super) fn iterations<O, S, I: State>(
+    problem: O,
+    solver: S,
+    configure: impl FnOnce(I) -> I,
+) -> Result<Option<u64>, FormError>
+where
+    S: Solver<O, I>,
+{
+    let run = Executor::new(problem, solver).configure(configure).ctrlc(false).run();
+    Ok(give_up(run)?.map(|result| result.state().get_iter()))
 }

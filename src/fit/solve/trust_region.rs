@@ -4,12 +4,12 @@
 //! the Jacobian; further rounds in variables that make its columns orthonormal at the best point so
 //! far, in which the last digits come quickly however ill-conditioned the problem is.
 
-use argmin::core::{Executor, IterState, State};
+use argmin::core::IterState;
 use argmin::solver::trustregion::{Steihaug, TrustRegion};
 use nalgebra::{DMatrix, DVector};
 
-use super::attempt::{Attempt, Termination};
-use super::scaled::{Scaled, give_up};
+use super::attempt::{Attempt, BY_DERIVATIVES, Termination};
+use super::scaled::{self, Scaled, give_up};
 use crate::fit::problem::Problem;
 use crate::form::FormError;
 
@@ -26,9 +26,12 @@ pub(super) fn solve(
     start: &DVector<f64>,
     max_iterations: u64,
 ) -> Result<Attempt, FormError> {
+    let judged = |iterations: u64| {
+        Attempt::judged(problem, start, iterations, iterations >= max_iterations, BY_DERIVATIVES)
+    };
     let first = Scaled::columns(problem, start.clone())?;
     let mut iterations = round(problem, first, max_iterations.min(8 * ROUND))?;
-    let mut attempt = Attempt::judged(problem, start, iterations, iterations >= max_iterations)?;
+    let mut attempt = judged(iterations)?;
     for _ in 0..ROUNDS {
         if attempt.termination != Termination::Stalled || iterations >= max_iterations {
             break;
@@ -36,7 +39,7 @@ pub(super) fn solve(
         let before = attempt.cost;
         let scaled = Scaled::orthonormal(problem, attempt.variables.clone())?;
         iterations += round(problem, scaled, ROUND.min(max_iterations - iterations))?;
-        attempt = Attempt::judged(problem, start, iterations, iterations >= max_iterations)?;
+        attempt = judged(iterations)?;
         if attempt.cost >= before {
             break;
         }
@@ -55,9 +58,6 @@ fn round(problem: &Problem, scaled: Scaled, max_iterations: u64) -> Result<u64, 
         .with_max_radius(1e3 * radius)
         .and_then(|solver| solver.with_radius(radius));
     let Some(solver) = give_up(solver)? else { return Ok(0) };
-    let run = Executor::new(scaled, solver)
-        .configure(|state: Iteration| state.param(origin).max_iters(max_iterations))
-        .ctrlc(false)
-        .run();
-    Ok(give_up(run)?.map_or(0, |result| result.state().get_iter()))
+    let begin = |state: Iteration| state.param(origin).max_iters(max_iterations);
+    Ok(scaled::iterations(scaled, solver, begin)?.unwrap_or(0))
 }

@@ -6,10 +6,10 @@ use crate::document::{Block, Cell, Figure, PrintedColumn, PrintedTable, Section,
 use crate::effect::{Effect, Yardstick};
 use crate::gpu::{Spread, TimingFigures};
 use crate::numeric::measured::Measured;
-use crate::validate::cheapest::{Cheapest, LIMITS, cheapest};
 use crate::validate::cost::Costs;
-use crate::validate::goals::{GoalVerdict, goals};
-use crate::validate::standing::{Answers, Standing, standings};
+use crate::validate::standing::{
+    Answers, Cheapest, GoalVerdict, LIMITS, Standing, cheapest, goals, standings,
+};
 use crate::validate::study::Study;
 
 pub(super) fn section(evidence: &EffectEvidence<'_>) -> Section {

@@ -50,9 +50,10 @@ pub(super) fn section(evidence: &EffectEvidence<'_>) -> Result<Section, Validate
     Ok(section)
 }
 
-/// The fits, the baseline first, so that it is drawn and others are compared with it.
+/// The fits that return values, the baseline first, so that it is drawn and others are compared with it.
 fn ordered<'a>(evidence: &EffectEvidence<'a>) -> Vec<&'a CandidateStudy> {
-    let mut fits: Vec<&CandidateStudy> = evidence.study.candidates.iter().collect();
+    let valued = evidence.study.candidates.iter().filter(|fit| fit.draws.is_empty());
+    let mut fits: Vec<&CandidateStudy> = valued.collect();
     fits.sort_by_key(|fit| !evidence.effect.baselines.contains(&fit.name.as_str()));
     fits
 }

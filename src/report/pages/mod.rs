@@ -3,6 +3,7 @@
 mod accuracy;
 mod costs;
 mod curves;
+mod draws;
 mod families;
 mod findings;
 mod fits;
@@ -23,6 +24,7 @@ use crate::validate::cost::Costs;
 use crate::validate::study::Study;
 
 pub use costs::cost_section;
+pub use draws::draws_section;
 pub use fits::{constants, family_constants, status};
 pub use gates::{by_attention, summary, table as gate_table};
 pub use index::index_page;
@@ -71,7 +73,9 @@ pub fn effect_page(evidence: &EffectEvidence<'_>) -> Result<Page, ValidateError>
         page = page.section(Section::new("Families").notice(NoticeLevel::NotMeasured, text));
     }
     if !evidence.study.candidates.is_empty() {
-        page = page.section(accuracy::section(evidence)).section(curves::section(evidence)?);
+        page = page.section(accuracy::section(evidence));
+        page.sections.extend(draws_section(evidence.study));
+        page = page.section(curves::section(evidence)?);
     }
     page = page.section(costs::section(evidence));
     page.sections.extend(evidence.study.exhibits.iter().cloned());
