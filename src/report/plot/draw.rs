@@ -1,11 +1,13 @@
 //! The layout of a figure: its plots in rows, its legend under them.
 
-use super::canvas::{Canvas, UNITS, dark_rules, escaped};
+use std::fmt::Write as _;
+
 use super::frame::Rect;
+use super::ink::{dark_rules, resolve};
 use super::legend::{Legend, Swatch};
-use super::panel::{Panel, Shown, axes, label_width};
-use super::scale::Span;
+use super::panel::{Axes, Margins, Panel, Shown};
 use super::series::{Fineness, Look, Traced};
+use super::surface::{Refused, Surface, UNITS, printable};
 use crate::document::Figure;
 use crate::document::plot::{Plot, Series};
 
@@ -51,7 +53,7 @@ impl Drawing {
     }
 }
 
-/// Draws a figure.
+/// Draws a figure; what the drawing library refuses stands in the notes.
 #[must_use]
 pub fn draw(figure: &Figure) -> Drawing {
     let names = names(&figure.plots);
@@ -64,6 +66,7 @@ pub fn draw(figure: &Figure) -> Drawing {
     let legend_area = legend.area(left, top);
     let height = legend_area.map_or(top, |area| area.bottom()) + GUTTER;
 
+    let mut drawn = String::new();
     let mut notes: Vec<String> = Vec::new();
     for note in panels.iter().flat_map(Panel::notes) {
         if !notes.contains(&note) {
@@ -78,12 +81,13 @@ pub fn draw(figure: &Figure) -> Drawing {
     }
     let marker = if figure.per_row > 2 { 0.7 } else { 1.0 };
     let fineness = Fineness { column, cell, marker };
-    let mut canvas = Canvas::default();
-    panels.iter().for_each(|panel| panel.draw(&mut canvas, fineness));
-    legend.draw(&mut canvas, left, top);
+    let painted = paint(&mut drawn, (WIDTH, height), &panels, &legend, (left, top), fineness);
+    if let Err(Refused(reason)) = painted {
+        notes.push(format!("Not drawn in full: {reason}."));
+    }
     let area = |panel: &Panel<'_>| panel.labels.iter().map(|l| l.area).collect();
     Drawing {
-        svg: wrapped(figure, &canvas.svg, height),
+        svg: wrapped(figure, &resolve(&drawn), height),
         notes,
         plot_areas: panels.iter().map(|p| p.frame.area).collect(),
         legend: legend_area,
@@ -102,6 +106,22 @@ fn smallest(first: f64, factor: f64, enough: impl Fn(f64) -> bool) -> f64 {
         size *= factor;
     }
     size
+}
+
+fn paint(
+    buffer: &mut String,
+    (width, height): (f64, f64),
+    panels: &[Panel<'_>],
+    legend: &Legend,
+    (left, top): (f64, f64),
+    fineness: Fineness,
+) -> Result<(), Refused> {
+    let surface = Surface::new(buffer, width, height);
+    for panel in panels {
+        panel.draw(&surface, fineness)?;
+    }
+    legend.draw(&surface, left, top)?;
+    surface.finish()
 }
 
 /// The names of the series of a figure, in the order in which they appear.
@@ -141,6 +161,7 @@ fn entries(plots: &[Plot], names: &[&str]) -> Vec<(Swatch, String)> {
 fn panels<'a>(figure: &'a Figure, names: &[&str]) -> Vec<Panel<'a>> {
     let plots = &figure.plots;
     let columns = figure.per_row.clamp(1, 4).min(plots.len().max(1));
+    let rows = plots.len().div_ceil(columns);
     let same = |of: fn(&Plot) -> String| {
         let first = plots.first().map(of);
         plots.iter().all(|p| Some(of(p)) == first)
@@ -152,23 +173,27 @@ fn panels<'a>(figure: &'a Figure, names: &[&str]) -> Vec<Panel<'a>> {
         y_label: !same_y || index.is_multiple_of(columns),
         minor_grid: columns == 1,
     };
+    let cell_width = (WIDTH - GUTTER) / as_f64(columns);
     let area_height = [330.0, 220.0, 170.0, 140.0].get(columns - 1).copied().unwrap_or(140.0);
-    let rough = ((WIDTH - GUTTER) / columns as f64 - 90.0).max(60.0);
-    let axes: Vec<_> = plots.iter().map(|p| axes(p, rough, area_height)).collect();
-    let widest = axes.iter().map(|[_, y]| label_width(y)).fold(0.0, f64::max);
-    let above = if plots.iter().any(|p| !p.title.is_empty()) { 30.0 } else { 12.0 };
+    let rough = (cell_width - 90.0).max(60.0);
+    let axes: Vec<_> = plots.iter().map(|p| Axes::new(p, rough, area_height)).collect();
+    let widest = axes.iter().map(Axes::y_label_width).fold(0.0, f64::max);
+    let titled = plots.iter().any(|p| !p.title.is_empty());
     let row_height = |row: usize| {
-        let labelled = (row * columns..plots.len()).take(columns).any(|i| shown(i).x_label);
-        above + area_height + if labelled { 42.0 } else { 26.0 }
+        let last = (row * columns..plots.len()).take(columns).any(|i| shown(i).x_label);
+        let margins = Margins::new(widest, titled, Shown { x_label: last, ..shown(0) });
+        margins.top + area_height + margins.bottom
     };
-    // Every column keeps room for the label of the first, so that all areas are equally wide.
-    let (lead, label) = if same_y { (20.0, 0.0) } else { (0.0, 20.0) };
-    let (width, before) = ((WIDTH - GUTTER - lead) / columns as f64, 12.0 + widest + label);
-    let place = |(index, (plot, axes)): (usize, (&'a Plot, [Span; 2]))| {
+    let tops: Vec<f64> = (0..rows).map(|row| (0..row).map(row_height).sum()).collect();
+    let place = |(index, (plot, axes)): (usize, (&'a Plot, Axes))| {
+        // Every column keeps room for the label of the first, so that all areas are equally wide.
+        let margins = Margins::new(widest, titled, Shown { y_label: !same_y, ..shown(index) });
+        let lead = if same_y { 20.0 } else { 0.0 };
+        let width = (WIDTH - GUTTER - lead) / as_f64(columns);
         let area = Rect {
-            left: lead + (index % columns) as f64 * width + before,
-            top: (0..index / columns).map(row_height).sum::<f64>() + above,
-            width: width - before - 16.0,
+            left: lead + as_f64(index % columns) * width + margins.left,
+            top: tops.get(index / columns).copied().unwrap_or(0.0) + margins.top,
+            width: width - margins.left - margins.right,
             height: area_height,
         };
         Panel::new(plot, axes, area, shown(index), |series| look(series, names))
@@ -182,15 +207,29 @@ fn wrapped(figure: &Figure, body: &str, height: f64) -> String {
     let titles: Vec<_> =
         figure.plots.iter().map(|p| p.title.as_str()).filter(|t| !t.is_empty()).collect();
     let title = if titles.is_empty() { stem.clone() } else { titles.join("; ") };
-    format!(
+    let mut svg = String::with_capacity(body.len() + 600);
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        svg,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" width=\"{WIDTH:.0}\" \
          height=\"{height:.0}\" viewBox=\"0 0 {:.0} {:.0}\" role=\"img\" \
          aria-labelledby=\"{stem}-title {stem}-desc\" \
-         font-family=\"Helvetica,Arial,sans-serif\" stroke-linejoin=\"round\">\n\
-         <title id=\"{stem}-title\">{}</title>\n<desc id=\"{stem}-desc\">{}</desc>\n{body}</svg>\n",
+         font-family=\"Helvetica,Arial,sans-serif\" stroke-linejoin=\"round\">",
         WIDTH * UNITS,
         height * UNITS,
-        escaped(&title),
-        escaped(&figure.caption.to_plain()),
-    )
+    );
+    let _ = writeln!(svg, "<title id=\"{stem}-title\">{}</title>", escaped(&title));
+    let caption = escaped(&figure.caption.to_plain());
+    let _ = writeln!(svg, "<desc id=\"{stem}-desc\">{caption}</desc>");
+    svg.push_str(body);
+    svg.push_str("</svg>\n");
+    svg
+}
+
+fn escaped(text: &str) -> String {
+    printable(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+fn as_f64(count: usize) -> f64 {
+    u32::try_from(count).map_or(f64::from(u32::MAX), f64::from)
 }

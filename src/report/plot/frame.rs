@@ -79,8 +79,11 @@ impl Rect {
 /// A plot area with its two axes.
 #[derive(Debug, Clone)]
 pub(super) struct Frame {
+    /// The plot area.
     pub(super) area: Rect,
+    /// Horizontal axis.
     pub(super) x: Span,
+    /// Vertical axis.
     pub(super) y: Span,
 }
 

@@ -1,8 +1,11 @@
 //! Labels at points, placed so that they cover neither each other nor the data.
 
-use super::canvas::{Canvas, Ink, Lettering};
+use plotters::style::text_anchor::HPos;
+
 use super::frame::Rect;
+use super::ink::Ink;
 use super::lettering;
+use super::surface::{Lettering, Refused, Surface};
 
 /// Size of labels, in pixels.
 pub(super) const SIZE: f64 = 11.0;
@@ -145,7 +148,7 @@ fn cost(
 }
 
 /// Draws the labels, each with a leader if it stands apart from its point.
-pub(super) fn draw(placed: &[Placed], on: &mut Canvas) {
+pub(super) fn draw(placed: &[Placed], on: &Surface<'_>) -> Result<(), Refused> {
     for label in placed {
         let near = nearest(&label.area, label.point);
         let length = distance(label.point, near);
@@ -155,11 +158,12 @@ pub(super) fn draw(placed: &[Placed], on: &mut Canvas) {
                 label.point.0 + start * (near.0 - label.point.0),
                 label.point.1 + start * (near.1 - label.point.1),
             );
-            on.line(&[from, near], Ink::Text(0.5), 0.8);
+            on.line(&[from, near], Ink::Text(0.5), 0.8)?;
         }
         let place = (label.area.left, label.area.top + label.area.height / 2.0);
-        on.text(&label.text, place, Lettering::new(SIZE, "start"));
+        on.text(&label.text, place, Lettering::new(SIZE, HPos::Left))?;
     }
+    Ok(())
 }
 
 fn nearest(area: &Rect, point: (f64, f64)) -> (f64, f64) {

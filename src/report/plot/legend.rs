@@ -1,9 +1,12 @@
 //! The legend of a figure: rows of entries under every plot, so that it never covers data.
 
-use super::canvas::{Canvas, Lettering};
+use plotters::style::text_anchor::HPos;
+
 use super::frame::Rect;
+use super::ink::{Ink, Marker};
 use super::lettering;
-use super::series::{FRONTIER, Look};
+use super::series::Look;
+use super::surface::{Lettering, Refused, Surface};
 
 const SIZE: f64 = 12.0;
 const ROW: f64 = 20.0;
@@ -50,18 +53,27 @@ impl Legend {
         (!self.entries.is_empty()).then_some(Rect { left, top, width, height })
     }
 
-    pub(super) fn draw(&self, on: &mut Canvas, left: f64, top: f64) {
+    /// Draws it there.
+    pub(super) fn draw(&self, on: &Surface<'_>, left: f64, top: f64) -> Result<(), Refused> {
         for (swatch, name, (x, y)) in &self.entries {
             let (x, y) = (left + x, top + y);
             let line = [(x, y), (x + SWATCH - 8.0, y)];
             match swatch {
-                Swatch::Series(look) => match look.ink() {
-                    Some(ink) => on.line(&line, ink, look.width()),
-                    None => on.marker(look.index, (x + (SWATCH - 8.0) / 2.0, y), look.radius()),
-                },
-                Swatch::Frontier => on.line(&line, FRONTIER, 1.3),
+                Swatch::Series(look) => {
+                    if look.has_line() {
+                        on.line(&line, look.ink(), look.width())?;
+                    }
+                    if look.has_markers() {
+                        let middle = (x + (SWATCH - 8.0) / 2.0, y);
+                        let shape = Marker::of(look.index);
+                        let ink = Ink::Solid(look.index);
+                        on.marker(shape, middle, look.radius(), ink)?;
+                    }
+                }
+                Swatch::Frontier => on.line(&line, Ink::Text(0.55), 1.3)?,
             }
-            on.text(name, (x + SWATCH, y), Lettering::new(SIZE, "start"));
+            on.text(name, (x + SWATCH, y), Lettering::new(SIZE, HPos::Left))?;
         }
+        Ok(())
     }
 }

@@ -29,6 +29,7 @@ pub(super) struct Span {
     scale: Scale,
     first: f64,
     last: f64,
+    /// Labelled ticks.
     pub(super) ticks: Vec<Tick>,
     /// Values of the ticks between them, on logarithmic axes.
     pub(super) minor: Vec<f64>,
@@ -36,9 +37,12 @@ pub(super) struct Span {
     pub(super) range_ignored: bool,
 }
 
+/// A labelled tick.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tick {
+    /// Its value.
     pub(super) value: f64,
+    /// Its label.
     pub(super) label: String,
 }
 
@@ -92,26 +96,26 @@ fn fitting(positions: impl Iterator<Item = f64>, margin: f64) -> (f64, f64) {
     (low - margin * extent, high + margin * extent)
 }
 
-/// `from` and what follows it in steps of `stride`, as far as `to`.
-fn steps(from: f64, to: f64, stride: f64) -> impl Iterator<Item = f64> {
-    std::iter::successors(Some(from), move |at| Some(at + stride)).take_while(move |at| *at <= to)
-}
-
 /// Multiples of 1, 2 or 5 times a power of ten.
 fn linear_ticks(first: f64, last: f64, wanted: usize) -> Vec<Tick> {
-    let rough = (last - first) / wanted.max(2) as f64;
+    let rough = (last - first) / count_as_f64(wanted.max(2));
     let exponent = rough.log10().floor();
     let power = 10f64.powf(exponent);
     let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= rough * 0.8).unwrap_or(10.0);
     let exponent = if factor == 10.0 { exponent + 1.0 } else { exponent };
     let step = factor * power;
-    let (from, to) = ((first / step - 1e-9).ceil(), (last / step + 1e-9).floor());
-    let scientific = !(1e-3..1e5).contains(&first.abs().max(last.abs()));
-    let tick = |index: f64| {
+    let from = (first / step - 1e-9).ceil();
+    let to = (last / step + 1e-9).floor();
+    let largest = first.abs().max(last.abs());
+    let scientific = !(1e-3..1e5).contains(&largest);
+    let mut ticks = Vec::new();
+    let mut index = from;
+    while index <= to && ticks.len() <= 4 * wanted {
         let value = index * step;
-        Tick { value, label: linear_label(value, exponent, scientific) }
-    };
-    steps(from, to, 1.0).take(4 * wanted + 1).map(tick).collect()
+        ticks.push(Tick { value, label: linear_label(value, exponent, scientific) });
+        index += 1.0;
+    }
+    ticks
 }
 
 /// A multiple of a step whose leading digit stands at `exponent`, with no digit too many.
@@ -120,10 +124,10 @@ fn linear_label(value: f64, exponent: f64, scientific: bool) -> String {
         return "0".to_owned();
     }
     if !scientific {
-        let places = (-exponent).clamp(0.0, 17.0) as usize;
+        let places = digits(-exponent);
         return format!("{value:.places$}");
     }
-    let places = (value.abs().log10().floor() - exponent).clamp(0.0, 17.0) as usize;
+    let places = digits(value.abs().log10().floor() - exponent);
     let text = format!("{value:.places$e}");
     match text.split_once('e') {
         Some((mantissa, power)) if mantissa.contains('.') => {
@@ -142,15 +146,20 @@ fn log_ticks(first: f64, last: f64, wanted: usize) -> (Vec<Tick>, Vec<f64>) {
         let ticks = linear_ticks(10f64.powf(first), 10f64.powf(last), wanted);
         return (ticks.into_iter().filter(|t| t.value > 0.0).collect(), Vec::new());
     }
-    let multiples = |factors: &'static [f64]| -> Vec<f64> {
-        let shown = |position: f64| position >= first - 1e-9 && position <= last + 1e-9;
-        steps(from - 1.0, to, 1.0)
-            .flat_map(|power| factors.iter().map(move |factor| (power, *factor)))
-            .filter(|(power, factor)| shown(power + factor.log10()))
-            .map(|(power, factor)| factor * 10f64.powf(power))
-            .collect()
+    let multiples = |factors: &'static [f64]| {
+        let mut values = Vec::new();
+        let mut power = from - 1.0;
+        while power <= to {
+            for factor in factors {
+                let position = power + factor.log10();
+                if position >= first - 1e-9 && position <= last + 1e-9 {
+                    values.push(factor * 10f64.powf(power));
+                }
+            }
+            power += 1.0;
+        }
+        values
     };
-    let labelled = |value: f64| Tick { value, label: log_label(value) };
     if decades < 3.0 {
         let mut ticks = multiples(&[1.0, 2.0, 5.0]);
         let mut between = multiples(&[3.0, 4.0, 6.0, 7.0, 8.0, 9.0]);
@@ -158,11 +167,17 @@ fn log_ticks(first: f64, last: f64, wanted: usize) -> (Vec<Tick>, Vec<f64>) {
             ticks.append(&mut between);
             ticks.sort_by(f64::total_cmp);
         }
-        return (ticks.into_iter().map(labelled).collect(), between);
+        let ticks = ticks.into_iter().map(|value| Tick { value, label: log_label(value) });
+        return (ticks.collect(), between);
     }
-    let stride = (decades / wanted.max(2) as f64).ceil().max(1.0);
-    let powers = steps((from / stride).ceil() * stride, to, stride);
-    let ticks = powers.map(|power| labelled(10f64.powf(power))).collect();
+    let stride = (decades / count_as_f64(wanted.max(2))).ceil().max(1.0);
+    let mut ticks = Vec::new();
+    let mut power = (from / stride).ceil() * stride;
+    while power <= to {
+        let value = 10f64.powf(power);
+        ticks.push(Tick { value, label: log_label(value) });
+        power += stride;
+    }
     let minor = if stride > 1.0 {
         multiples(&[1.0])
     } else if decades <= 8.0 {
@@ -180,15 +195,18 @@ fn symlog_ticks(scale: Scale, below: f64, first: f64, last: f64, wanted: usize) 
     };
     let largest = first.abs().max(last.abs()) + below.log10();
     let both = if first < 0.0 && last > 0.0 { 2.0 } else { 1.0 };
-    let stride = (both * (largest - lowest + 1.0) / wanted.max(3) as f64).ceil().max(1.0);
+    let stride = (both * (largest - lowest + 1.0) / count_as_f64(wanted.max(3))).ceil().max(1.0);
+    let mut values = vec![0.0];
     // ±`linear_below` stands so close to 0 that their labels would touch.
-    let lowest = if largest >= lowest + 1.0 { lowest + 1.0 } else { lowest };
-    let powers: Vec<f64> = steps(lowest, largest, stride).map(|power| 10f64.powf(power)).collect();
-    let values = powers.iter().rev().map(|value| -value).chain([0.0]).chain(powers.iter().copied());
-    values
-        .filter(|value| scale.position(*value).is_some_and(|p| p >= first && p <= last))
-        .map(|value| Tick { value, label: log_label(value) })
-        .collect()
+    let mut power = if largest >= lowest + 1.0 { lowest + 1.0 } else { lowest };
+    while power <= largest {
+        values.push(10f64.powf(power));
+        values.insert(0, -(10f64.powf(power)));
+        power += stride;
+    }
+    let shown = |value: &f64| scale.position(*value).is_some_and(|p| p >= first && p <= last);
+    let ticks = values.into_iter().filter(shown);
+    ticks.map(|value| Tick { value, label: log_label(value) }).collect()
 }
 
 /// 0.001 to 1000 plain, 1e-6 and the like beyond.
@@ -199,6 +217,15 @@ fn log_label(value: f64) -> String {
     let text = format!("{value:.0e}");
     let plain = (1e-3 * 0.999..1e4).contains(&value.abs());
     text.parse::<f64>().map_or(text.clone(), |v| if plain { v.to_string() } else { text })
+}
+
+fn count_as_f64(count: usize) -> f64 {
+    u32::try_from(count).map_or(f64::from(u32::MAX), f64::from)
+}
+
+/// A number of decimal places, from 0 to 17.
+fn digits(places: f64) -> usize {
+    (0..=17).find(|n| count_as_f64(*n) >= places).unwrap_or(17)
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! The series of a panel in pixels: clipped, thinned, with what cannot be drawn counted.
 
-use super::canvas::{Canvas, Ink};
 use super::frame::Frame;
 use super::frontier::{frontier, staircase};
+use super::ink::{Ink, Marker};
+use super::surface::{Refused, Surface};
 use crate::document::plot::{Emphasis, Series, SeriesStyle};
 use crate::document::thin;
 
@@ -15,16 +16,12 @@ pub(super) struct Look {
     pub(super) emphasis: Emphasis,
 }
 
-/// What a frontier is drawn with.
-pub(super) const FRONTIER: Ink = Ink::Text(0.55);
-
 impl Look {
-    /// What its line is drawn with; markers have none.
-    pub(super) fn ink(self) -> Option<Ink> {
+    pub(super) fn ink(self) -> Ink {
         match self.style {
-            SeriesStyle::Line => Some(Ink::Patterned(self.index)),
-            SeriesStyle::Dashed => Some(Ink::Dashed(self.index)),
-            SeriesStyle::Markers => None,
+            SeriesStyle::Line => Ink::Patterned(self.index),
+            SeriesStyle::Dashed => Ink::Dashed(self.index),
+            SeriesStyle::Markers => Ink::Solid(self.index),
         }
     }
 
@@ -34,6 +31,14 @@ impl Look {
 
     pub(super) fn radius(self) -> f64 {
         if self.emphasis == Emphasis::Strong { 5.2 } else { 4.0 }
+    }
+
+    pub(super) fn has_line(self) -> bool {
+        self.style != SeriesStyle::Markers
+    }
+
+    pub(super) fn has_markers(self) -> bool {
+        self.style == SeriesStyle::Markers
     }
 }
 
@@ -104,9 +109,9 @@ impl Traced {
                 _ => runs.push(Vec::new()),
             }
         }
-        let lines = match look.ink() {
-            Some(_) => runs.iter().flat_map(|run| clipped(run, frame)).collect(),
-            None => Vec::new(),
+        let lines = match series.style {
+            SeriesStyle::Markers => Vec::new(),
+            _ => runs.iter().flat_map(|run| clipped(run, frame)).collect(),
         };
         Self { name: series.name.clone(), look, lines, places, hidden }
     }
@@ -118,7 +123,7 @@ impl Traced {
 
     /// Places of its markers when those that share a cell of `cell` pixels are drawn once.
     pub(super) fn markers(&self, cell: f64) -> Vec<(f64, f64)> {
-        if self.look.ink().is_some() {
+        if !self.look.has_markers() {
             return Vec::new();
         }
         let mut taken = std::collections::BTreeSet::new();
@@ -126,19 +131,28 @@ impl Traced {
         self.places.iter().filter(|p| taken.insert((key(p.0), key(p.1)))).copied().collect()
     }
 
-    pub(super) fn draw(&self, on: &mut Canvas, Fineness { column, cell, marker }: Fineness) {
+    /// Draws it.
+    pub(super) fn draw(
+        &self,
+        on: &Surface<'_>,
+        Fineness { column, cell, marker }: Fineness,
+    ) -> Result<(), Refused> {
         let look = self.look;
         for line in &self.lines {
-            match (thin::by_column(line, column).as_slice(), look.ink()) {
-                ([], _) | (_, None) => {}
+            match thin::by_column(line, column).as_slice() {
+                [] => {}
                 // A point between two gaps would not show as a line.
-                ([place], _) => on.disc(look.index, *place, 1.3),
-                (places, Some(ink)) => on.line(places, ink, look.width()),
+                [place] if !look.has_markers() => {
+                    on.marker(Marker::Circle, *place, 1.3, Ink::Solid(look.index))?;
+                }
+                places => on.line(places, look.ink(), look.width())?,
             }
         }
         for place in self.markers(cell) {
-            on.marker(look.index, place, marker * look.radius());
+            let ink = Ink::Solid(look.index);
+            on.marker(Marker::of(look.index), place, marker * look.radius(), ink)?;
         }
+        Ok(())
     }
 }
 
