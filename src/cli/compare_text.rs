@@ -195,7 +195,8 @@ impl Comparison<'_> {
     /// For a reader.
     pub(super) fn section(&self) -> Section {
         let Compared { parts, pictures } = self.compared;
-        let numbers: [(&str, fn(&Difference) -> f64); 5] = [
+        type Number = fn(&Difference) -> f64;
+        let numbers: [(&str, Number); 5] = [
             ("mean", |of| of.mean),
             ("reference", |of| of.reference_mean),
             ("rms", |of| of.rms),
