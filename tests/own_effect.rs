@@ -132,9 +132,9 @@ const LIT_FLAKES: Reference = Reference {
             return Err(outside("lit", "[0, 1]", lit));
         }
         // One flake after the other: it is lit or it is not.
-        let mut probabilities = vec![1.0];
+        let mut probabilities = vec![0.0; flakes as usize + 1];
+        probabilities[0] = 1.0;
         for _ in 0..flakes as usize {
-            probabilities.push(0.0);
             for count in (0..probabilities.len()).rev() {
                 let below = if count == 0 { 0.0 } else { probabilities[count - 1] };
                 probabilities[count] = (1.0 - lit) * probabilities[count] + lit * below;
@@ -255,7 +255,7 @@ fn draws_are_judged_reported_and_gated() {
         )
     };
     let gates = |name: &str| {
-        let limits = [("mean_z", 4.0), ("variance_ratio", 1.05), ("chi2_p", 0.01)];
+        let limits = [("mean_z", 4.0), ("variance_ratio", 1.3), ("chi2_p", 0.01)];
         limits.map(|(metric, limit)| gate(name, "pixels", metric, limit)).concat()
     };
     fs::create_dir_all(folder.path().join("fits")).expect("a folder");
@@ -278,20 +278,20 @@ fn draws_are_judged_reported_and_gated() {
         };
         println!("{name}: {:?}", Draws { points: Vec::new(), ..pixels.clone() });
         assert_eq!((pixels.points.len(), pixels.fair()), (15, name == "flakes/fair"), "{name}");
-        assert!(pixels.points.iter().all(|point| point.draws == (1 << 20) / 15), "{name}");
+        assert!(pixels.points.iter().all(|point| point.draws == (1 << 17) / 15), "{name}");
         assert!(edges.fair() || name == "flakes/coarse", "{name}: {edges:?}");
     }
-    // As measured: 561 standard errors of the mean, and 16.7 times the variance of 16 flakes.
-    assert!(found("flakes/coarse")[0].1.worst_mean_z > 500.0);
-    let shared = found("flakes/shared")[0].1;
-    assert!((shared.worst_variance_ratio / 16.68 - 1.0).abs() < 1e-3, "{shared:?}");
+    // A mean that is off by 561 standard errors at 69905 draws a point is off by 198 at 8738 of them.
+    let coarse = found("flakes/coarse")[0].1.worst_mean_z;
+    assert!((coarse / 198.0 - 1.0).abs() < 0.05, "{coarse}");
+    // The variance of 16 flakes that share their number is 16 times that of 16 that do not.
+    let shared = found("flakes/shared")[0].1.worst_variance_ratio;
+    assert!((12.0..20.0).contains(&shared), "{shared}");
 
     let check = run.check(None, true).expect("judged");
     assert!(check.passed(), "{:?}", check.gates);
     assert_eq!(check.proofs.map(|proofs| proofs.proofs.len()), Some(3), "each gate can fail");
-    for (name, verdicts) in
-        [("coarse", [Verdict::Fail; 3]), ("shared", [Verdict::Pass, Verdict::Fail, Verdict::Fail])]
-    {
+    for name in ["coarse", "shared"] {
         let file = folder.path().join("unfair.toml");
         fs::write(&file, gates(name)).expect("written");
         let check = run.check(Some(&file), false).expect("judged");

@@ -18,7 +18,7 @@ use crate::validate::ValidateError;
 use crate::validate::accuracy::{GroundTruth, Judged, column, kernel_values, values_f32, widened};
 
 /// Draws over all points of a region; each point has as many, but no fewer than [`LEAST_DRAWS`].
-const DRAWS: usize = 1 << 20;
+const DRAWS: usize = 1 << 17;
 /// Draws at a point however many points there are.
 const LEAST_DRAWS: usize = 1 << 8;
 /// Probability below which draws are not taken for fair.
