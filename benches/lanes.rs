@@ -7,6 +7,7 @@ use std::hint::black_box;
 use std::process::Command;
 use std::time::Instant;
 
+use striae::form::lanes::{DualEvaluator, Evaluator};
 use striae::form::{Dual, Form};
 
 const SI: &str = include_str!("../tests/forms/si_published.wgsl");
@@ -19,12 +20,12 @@ fn main() {
     let singles: Vec<f32> = xs.iter().map(|&x| x as f32).collect();
     let parameters = PARAMETERS.map(|p| p as f32);
 
-    let mut double = form.evaluator_f64();
+    let mut double = Evaluator::<f64>::new(&form);
     let mut values = Vec::new();
     let f64_lanes = best(POINTS, || {
         double.eval_into(&PARAMETERS, &[&xs], &mut values).expect("evaluates");
     });
-    let mut single = form.evaluator_f32();
+    let mut single = Evaluator::<f32>::new(&form);
     let mut values = Vec::new();
     let f32_lanes = best(POINTS, || {
         single.eval_into(&parameters, &[&singles], &mut values).expect("evaluates");
@@ -38,7 +39,7 @@ fn main() {
     assert_eq!(values[0], scalar, "the lanes and scalar Rust agree to the bit");
 
     let fit_points = &xs[..2001];
-    let mut evaluator = form.evaluator_dual(&[0, 1]).expect("two parameters");
+    let mut evaluator = DualEvaluator::new(&form, &[0, 1]).expect("two parameters");
     let mut dual = Dual { values: Vec::new(), derivatives: Vec::new() };
     let f64_dual = best(fit_points.len(), || {
         evaluator.eval_into(&PARAMETERS, &[fit_points], &mut dual).expect("evaluates");

@@ -2,6 +2,7 @@
 //!
 //! Without an adapter these tests print a notice and pass; with `STRIAE_REQUIRE_GPU=1` they fail.
 
+use exr::prelude::f16;
 use std::f32::consts::PI;
 use std::time::{Duration, Instant};
 use striae::form::{DataTable, Form, FormError, Input};
@@ -397,11 +398,13 @@ fn typed_tables_agree_with_the_lanes() -> Outcome {
             _ => -65504.0,
         })
         .collect();
+    let half = |value: f32| u32::from(f16::from_f32(value).to_bits());
+    let pair = |pair: &[f32]| half(pair[0]) | half(pair[1]) << 16;
     let steps: Vec<i32> = (0..40).map(|i| i * i - 300).collect();
     let tables = vec![
         DataTable::vectors("quads", &quads),
         DataTable::vectors("triples", &triples),
-        DataTable::f16_pairs("halves", &halves),
+        DataTable::unsigned("halves", halves.chunks(2).map(pair).collect::<Vec<u32>>()),
         DataTable::signed("steps", &steps),
     ];
     let form = Form::parse_with("tables.wgsl", &source, "f", tables)?;

@@ -73,8 +73,8 @@ impl<'a> FormModel<'a> {
             origins,
             free: owners.iter().max().map_or(0, |last| last + 1),
             owners,
-            evaluator: RefCell::new(form.evaluator_f64()),
-            dual: RefCell::new((form.evaluator_dual(&varying)?, empty)),
+            evaluator: RefCell::new(Evaluator::<f64>::new(form)),
+            dual: RefCell::new((DualEvaluator::new(form, &varying)?, empty)),
         })
     }
 

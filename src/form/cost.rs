@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::operation::{F1, F2};
+use super::operation::Class;
 use super::program::{Instr, Node, Program, each_instr};
 
 /// Operations of one evaluation, by class: each instruction of the compiled program counted once,
@@ -34,31 +34,25 @@ impl OpCount {
     pub(crate) fn of(program: &Program) -> Self {
         let mut count = Self { branches: branches(&program.body), ..Self::default() };
         each_instr(&program.body, &mut |instr| match *instr {
-            Instr::F1 { op: F1::Sqrt | F1::InverseSqrt, .. }
-            | Instr::F2 { op: F2::Div | F2::Rem, .. } => count.divide_sqrt += 1,
-            Instr::F1 { op, .. } if op.is_elementary() => count.elementary += 1,
-            Instr::F2 { op: F2::Pow | F2::Atan2, .. } => count.elementary += 1,
+            Instr::Compute { op, .. } => match op.class() {
+                Class::Arithmetic => count.arithmetic += 1,
+                Class::DivideSqrt => count.divide_sqrt += 1,
+                Class::Elementary => count.elementary += 1,
+            },
+            Instr::Select { .. } => count.arithmetic += 1,
             Instr::Table { .. } | Instr::Gather { .. } | Instr::Scatter { .. } => {
                 count.table_reads += 1;
             }
             Instr::Move { .. } | Instr::Store { .. } => {}
-            _ => count.arithmetic += 1,
         });
         count
     }
 }
 
 fn branches(block: &[Node]) -> u32 {
-    block
-        .iter()
-        .map(|node| match node {
-            Node::If { accept, reject, .. } => 1 + branches(accept) + branches(reject),
-            Node::Switch { cases, .. } => {
-                1 + cases.iter().map(|case| branches(&case.body)).sum::<u32>()
-            }
-            Node::Loop { body, continuing, .. } => 1 + branches(body) + branches(continuing),
-            Node::Call(body) => branches(body),
-            Node::Run { .. } | Node::Break(_) | Node::Continue(_) | Node::Return => 0,
-        })
-        .sum()
+    let of = |node: &Node| {
+        let own = matches!(node, Node::If { .. } | Node::Switch { .. } | Node::Loop { .. });
+        u32::from(own) + node.blocks().into_iter().map(|block| branches(block)).sum::<u32>()
+    };
+    block.iter().map(of).sum()
 }

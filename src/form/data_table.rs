@@ -21,7 +21,7 @@ use naga::{
 };
 
 use super::program::Kind;
-use super::{FormError, ScalarType, half, load};
+use super::{FormError, ScalarType, load};
 
 /// Bind group of the tables of a form.
 pub const GROUP: u32 = 1;
@@ -63,15 +63,6 @@ impl DataTable {
     pub fn signed(name: &str, values: &[i32]) -> Self {
         let words: Vec<u32> = values.iter().map(|&value| value as u32).collect();
         Self { scalar: ScalarType::I32, ..Self::unsigned(name, words) }
-    }
-
-    /// `array<u32>` of pairs of f16, the first in the low bits, as `unpack2x16float` reads them; each
-    /// number rounded to the nearest, an odd count filled up with 0.
-    pub fn f16_pairs(name: &str, values: &[f32]) -> Self {
-        let half = |value: &f32| u32::from(half::bits(*value));
-        let pair = |pair: &[f32]| half(&pair[0]) | pair.get(1).map_or(0, half) << 16;
-        let words: Vec<u32> = values.chunks(2).map(pair).collect();
-        Self::unsigned(name, words)
     }
 
     /// Name of the variable.

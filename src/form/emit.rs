@@ -132,8 +132,7 @@ pub fn emit_with_tables(
     let parameters = parameter_values(form, values).map_err(refuse)?;
     load::guarded(form.origin(), || {
         let module = baked(form, &parameters).map_err(refuse)?;
-        let info = validate(&module).map_err(refuse)?;
-        write(&module, &info, language, header).map_err(refuse)
+        write(&module, language, header).map_err(|error| refuse(error.to_string()))
     })
 }
 
@@ -260,10 +259,10 @@ fn validate(module: &Module) -> Result<ModuleInfo, String> {
 
 fn write(
     module: &Module,
-    info: &ModuleInfo,
     language: Language,
     header: &str,
-) -> Result<Emitted, String> {
+) -> Result<Emitted, Box<dyn std::error::Error>> {
+    let info = &validate(module)?;
     let stage = ShaderStage::Compute;
     if language == Language::Spirv {
         let options = spv::Options {
@@ -273,8 +272,7 @@ fn write(
             ..spv::Options::default()
         };
         let pipeline = spv::PipelineOptions { shader_stage: stage, entry_point: "main".into() };
-        let words = spv::write_vec(module, info, &options, Some(&pipeline))
-            .map_err(|error| error.to_string())?;
+        let words = spv::write_vec(module, info, &options, Some(&pipeline))?;
         return Ok(Emitted::Binary(words.iter().flat_map(|word| word.to_le_bytes()).collect()));
     }
     if language == Language::Glsl {
@@ -291,9 +289,7 @@ fn write(
         };
         let mut text = String::new();
         let policies = BoundsCheckPolicies::default();
-        glsl::Writer::new(&mut text, module, info, &options, &pipeline, policies)
-            .and_then(|mut writer| writer.write())
-            .map_err(|error| error.to_string())?;
+        glsl::Writer::new(&mut text, module, info, &options, &pipeline, policies)?.write()?;
         let note = "`main` only completes the file: leave it out when copying the function.";
         return Ok(Emitted::Text(commented(&format!("{header}\n{note}"), &text)));
     }
@@ -306,8 +302,7 @@ fn write(
             let options = hlsl::Options { force_loop_bounding: false, ..hlsl::Options::default() };
             let mut text = String::new();
             hlsl::Writer::new(&mut text, &options, &hlsl::PipelineOptions::default())
-                .write(module, info, None)
-                .map_err(|error| error.to_string())?;
+                .write(module, info, None)?;
             braced_arrays(&text)
         }
         Language::Msl => {
@@ -316,13 +311,10 @@ fn write(
                 force_loop_bounding: false,
                 ..msl::Options::default()
             };
-            msl::write_string(module, info, &options, &msl::PipelineOptions::default())
-                .map_err(|error| error.to_string())?
-                .0
+            msl::write_string(module, info, &options, &msl::PipelineOptions::default())?.0
         }
         Language::Wgsl | Language::Glsl | Language::Spirv => {
-            wgsl::write_string(module, info, wgsl::WriterFlags::empty())
-                .map_err(|error| error.to_string())?
+            wgsl::write_string(module, info, wgsl::WriterFlags::empty())?
         }
     };
     Ok(Emitted::Text(commented(header, &text)))

@@ -1,4 +1,4 @@
-//! binary16: what `quantizeToF16` and `unpack2x16float` give, and how tables of f16 are packed.
+//! binary16: what `quantizeToF16` and `unpack2x16float` give.
 
 /// Rounds to binary16 and back, ties to even; beyond its range ±∞.
 pub(super) fn quantized(value: f32) -> f32 {
@@ -22,18 +22,6 @@ pub(super) fn quantized(value: f32) -> f32 {
 /// 2¹¹²: between the exponents of f32 and of binary16, whose fields line up 13 bits apart.
 const SCALE: f32 = f32::from_bits((112 + 127) << 23);
 
-/// The bits of the nearest binary16.
-pub(super) fn bits(value: f32) -> u16 {
-    let sign = (value.to_bits() >> 16) as u16 & 0x8000;
-    let magnitude = quantized(value).abs();
-    sign | match magnitude {
-        _ if magnitude.is_nan() => 0x7e00,
-        f32::INFINITY => 0x7c00,
-        // Exact, subnormals too: they are subnormals of f32 here.
-        _ => ((magnitude / SCALE).to_bits() >> 13) as u16,
-    }
-}
-
 /// The number that the low 16 bits of `bits` are.
 #[inline(always)]
 pub(super) fn value(bits: u32) -> f32 {
@@ -45,6 +33,8 @@ pub(super) fn value(bits: u32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use exr::prelude::f16;
+
     /// Every binary16 there is comes back, and is what quantizing leaves as it is.
     #[test]
     fn values_and_bits_are_inverse() {
@@ -52,7 +42,7 @@ mod tests {
             let value = super::value(half.into());
             assert_eq!(value.is_nan(), half & 0x7fff > 0x7c00, "{half:#x}");
             if !value.is_nan() {
-                assert_eq!(super::bits(value), half, "{half:#x}: {value:e}");
+                assert_eq!(f16::from_f32(value).to_bits(), half, "{half:#x}: {value:e}");
                 assert_eq!(super::quantized(value).to_bits(), value.to_bits(), "{half:#x}");
             }
         }

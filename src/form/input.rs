@@ -46,11 +46,8 @@ impl ScalarType {
 
     /// Type and number of components of a scalar or a vector, if it is made of one of the three.
     pub(super) fn of(inner: &TypeInner) -> Option<(Self, usize)> {
-        let (scalar, components) = match *inner {
-            TypeInner::Scalar(scalar) => (scalar, 1),
-            TypeInner::Vector { size, scalar } => (scalar, size as usize),
-            _ => return None,
-        };
+        let (size, scalar) = inner.vector_size_and_scalar()?;
+        let components = size.map_or(1, |size| size as usize);
         match scalar {
             Scalar::F32 => Some((Self::F32, components)),
             Scalar::I32 => Some((Self::I32, components)),
@@ -115,14 +112,15 @@ impl Input<'_> {
 
     /// Writes the numbers of `rows` to lanes.
     pub(super) fn fill<R: Real>(self, rows: Range<usize>, lanes: &mut [R]) {
-        fn convert<T: Copy, R>(lanes: &mut [R], column: &[T], number: impl Fn(T) -> R) {
-            lanes.iter_mut().zip(column).for_each(|(lane, &value)| *lane = number(value));
+        fn convert<R: Real>(lanes: &mut [R], column: &[impl Copy + Into<f64>]) {
+            let pairs = lanes.iter_mut().zip(column);
+            pairs.for_each(|(lane, &value)| *lane = R::from_f64(value.into()));
         }
         match self {
-            Self::F32(column) => convert(lanes, &column[rows], R::from_f32),
-            Self::F64(column) => convert(lanes, &column[rows], R::from_f64),
-            Self::I32(column) => convert(lanes, &column[rows], R::from_i32),
-            Self::U32(column) => convert(lanes, &column[rows], R::from_u32),
+            Self::F32(column) => convert(lanes, &column[rows]),
+            Self::F64(column) => convert(lanes, &column[rows]),
+            Self::I32(column) => convert(lanes, &column[rows]),
+            Self::U32(column) => convert(lanes, &column[rows]),
         }
     }
 }

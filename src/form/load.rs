@@ -44,18 +44,16 @@ pub(crate) fn guarded<T: Send>(
 /// Parses and validates.
 pub(crate) fn module(origin: &str, source: &str) -> Result<(Module, ModuleInfo), FormError> {
     check_size(origin, source)?;
-    let module = naga::front::wgsl::parse_str(source).map_err(|error| FormError::Invalid {
-        report: located(origin, source, error.location(source), &|| {
-            error.emit_to_string_with_path(source, origin)
-        }),
+    let invalid = |location, report: String| FormError::Invalid {
+        report: located(origin, source, location, report.trim_end()),
+    };
+    let module = naga::front::wgsl::parse_str(source).map_err(|error| {
+        invalid(error.location(source), error.emit_to_string_with_path(source, origin))
     })?;
-    let info = Validator::new(ValidationFlags::all(), Capabilities::all())
-        .validate(&module)
-        .map_err(|error| FormError::Invalid {
-            report: located(origin, source, error.location(source), &|| {
-                error.emit_to_string_with_path(source, origin)
-            }),
-        })?;
+    let info =
+        Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).map_err(
+            |error| invalid(error.location(source), error.emit_to_string_with_path(source, origin)),
+        )?;
     Ok((module, info))
 }
 
@@ -64,10 +62,8 @@ fn located(
     origin: &str,
     source: &str,
     location: Option<naga::SourceLocation>,
-    render: &dyn Fn() -> String,
+    report: &str,
 ) -> String {
-    let report = render();
-    let report = report.trim_end();
     if location.is_some() && report.contains(origin) {
         return report.to_owned();
     }
@@ -93,10 +89,6 @@ fn check_size(origin: &str, source: &str) -> Result<(), FormError> {
         match byte {
             b'(' | b'[' | b'{' => {
                 nesting += 1;
-                if nesting > MAX_BRACKET_NESTING {
-                    let what = format!("brackets are nested more than {MAX_BRACKET_NESTING} deep");
-                    return Err(too_large(at, what));
-                }
             }
             b')' | b']' | b'}' => {
                 nesting = nesting.saturating_sub(1);
@@ -104,20 +96,24 @@ fn check_size(origin: &str, source: &str) -> Result<(), FormError> {
             }
             b'e' if source.as_bytes()[at..].starts_with(b"else") => {
                 branches += 1;
-                if branches > MAX_ELSE {
-                    let what = format!("more than {MAX_ELSE} `else` in one function");
-                    return Err(too_large(at, what));
-                }
             }
             b'+' | b'-' | b'*' | b'/' | b'%' | b'&' | b'|' | b'^' | b'<' | b'>' | b'=' | b'!'
             | b'~' | b'.' => {
                 operators += 1;
-                if operators > MAX_OPERATORS {
-                    let what = format!("more than {MAX_OPERATORS} operators in one expression");
-                    return Err(too_large(at, what));
-                }
             }
             _ => {}
+        }
+        let excess = if nesting > MAX_BRACKET_NESTING {
+            Some(format!("brackets are nested more than {MAX_BRACKET_NESTING} deep"))
+        } else if branches > MAX_ELSE {
+            Some(format!("more than {MAX_ELSE} `else` in one function"))
+        } else if operators > MAX_OPERATORS {
+            Some(format!("more than {MAX_OPERATORS} operators in one expression"))
+        } else {
+            None
+        };
+        if let Some(what) = excess {
+            return Err(too_large(at, what));
         }
         if matches!(byte, b';' | b',' | b'{' | b'}') {
             operators = 0;

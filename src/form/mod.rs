@@ -49,6 +49,7 @@ mod load;
 mod operation;
 mod program;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 pub use cost::OpCount;
@@ -190,8 +191,7 @@ impl Form {
     }
     /// Type of every scalar input, in the order of [`Form::input_columns`].
     pub fn input_types(&self) -> Vec<ScalarType> {
-        let of = |a: &Argument| std::iter::repeat_n(a.scalar, a.components);
-        self.arguments().iter().flat_map(of).collect()
+        self.scalars().collect()
     }
     /// One column name per scalar output: `value`, or `value_x`, `value_y` …
     pub fn output_columns(&self) -> Vec<String> {
@@ -210,7 +210,7 @@ impl Form {
         inputs: &[&[f64]],
     ) -> Result<Vec<Vec<f64>>, FormError> {
         let mut values = Vec::new();
-        self.evaluator_f64().eval_into(parameters, inputs, &mut values)?;
+        Evaluator::<f64>::new(self).eval_into(parameters, inputs, &mut values)?;
         Ok(values)
     }
 
@@ -224,7 +224,7 @@ impl Form {
         inputs: &[&[f32]],
     ) -> Result<Vec<Vec<f32>>, FormError> {
         let mut values = Vec::new();
-        self.evaluator_f32().eval_into(parameters, inputs, &mut values)?;
+        Evaluator::<f32>::new(self).eval_into(parameters, inputs, &mut values)?;
         Ok(values)
     }
 
@@ -239,7 +239,7 @@ impl Form {
         inputs: &[Input<'_>],
     ) -> Result<Vec<Vec<f32>>, FormError> {
         let mut values = Vec::new();
-        self.evaluator_f32().eval_inputs_into(parameters, inputs, &mut values)?;
+        Evaluator::<f32>::new(self).eval_into(parameters, inputs, &mut values)?;
         Ok(values)
     }
 
@@ -254,26 +254,8 @@ impl Form {
         inputs: &[&[f64]],
     ) -> Result<Dual, FormError> {
         let mut dual = Dual { values: Vec::new(), derivatives: Vec::new() };
-        self.evaluator_dual(free)?.eval_into(parameters, inputs, &mut dual)?;
+        DualEvaluator::new(self, free)?.eval_into(parameters, inputs, &mut dual)?;
         Ok(dual)
-    }
-
-    /// An evaluator in f64 that allocates nothing from its second use on.
-    pub fn evaluator_f64(&self) -> Evaluator<f64> {
-        Evaluator::<f64>::new(self)
-    }
-
-    /// An evaluator in f32 that allocates nothing from its second use on.
-    pub fn evaluator_f32(&self) -> Evaluator<f32> {
-        Evaluator::<f32>::new(self)
-    }
-
-    /// An evaluator with derivatives that allocates nothing from its second use on.
-    ///
-    /// # Errors
-    /// [`FormError::Shape`] if `free` names no parameter or one twice.
-    pub fn evaluator_dual(&self, free: &[usize]) -> Result<DualEvaluator, FormError> {
-        DualEvaluator::new(self, free)
     }
 
     /// Static count of operations.
@@ -285,7 +267,8 @@ impl Form {
         &self.inner.module
     }
 
-    fn overrides(&self) -> &[compile::CompiledOverride] {
+    /// Where the value is of every override that the function reaches.
+    fn overrides(&self) -> &BTreeMap<naga::Handle<naga::Override>, program::Reg> {
         &self.inner.compiled.overrides
     }
 
@@ -293,10 +276,13 @@ impl Form {
         &self.inner.compiled.program
     }
 
+    fn scalars(&self) -> impl Iterator<Item = ScalarType> {
+        self.arguments().iter().flat_map(|a| std::iter::repeat_n(a.scalar, a.components))
+    }
+
     /// Type of scalar input `at`.
     pub(crate) fn input_type(&self, at: usize) -> ScalarType {
-        let of = |a: &Argument| std::iter::repeat_n(a.scalar, a.components);
-        self.arguments().iter().flat_map(of).nth(at).unwrap_or(ScalarType::F32)
+        self.scalars().nth(at).unwrap_or(ScalarType::F32)
     }
 
     /// The bits of scalar input `at`, which is of type `scalar`, in one row of its column.

@@ -1,134 +1,86 @@
-//! The operations of instructions, by the kinds of what they read and write.
+//! The operations of instructions: those of naga, for the kinds of scalars that they are of, and
+//! what has no name there.
 
-/// Float to float, one argument.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-pub(crate) enum F1 {
-    Neg,
-    Abs,
-    Sign,
-    Floor,
-    Ceil,
-    Round,
-    Trunc,
-    Degrees,
-    Radians,
-    FrexpFract,
-    QuantizeF16,
-    Sqrt,
-    InverseSqrt,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Sinh,
-    Cosh,
-    Tanh,
-    Asinh,
-    Acosh,
-    Atanh,
-    Exp,
-    Exp2,
-    Log,
-    Log2,
+use naga::{BinaryOperator, MathFunction, RelationalFunction, ScalarKind, UnaryOperator};
+
+use super::program::Kind;
+
+/// An operation on scalars of one type, which comes with it where it matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Op {
+    Unary(UnaryOperator, ScalarKind),
+    /// A shift takes its count from an unsigned number.
+    Binary(BinaryOperator, ScalarKind),
+    /// A function that has a [`Class`], or `frexp`: it gives the fraction alone, `ldexp`
+    /// takes its exponent from an integer.
+    Math(MathFunction, ScalarKind),
+    /// The exponent that `frexp` gives.
+    FrexpExponent,
+    /// The low 16 bits of an integer as binary16.
+    Half,
+    /// A test of a float.
+    Relational(RelationalFunction),
+    /// A conversion by value, from a type to another.
+    Convert(ScalarKind, ScalarKind),
+    /// The bits of an f32 as an integer, or the other way round: to a type.
+    Bitcast(ScalarKind),
 }
 
-impl F1 {
-    /// True for the functions that take a library call or a polynomial.
-    pub(crate) fn is_elementary(self) -> bool {
-        self as usize >= Self::InverseSqrt as usize
+impl Op {
+    /// Kind of the result.
+    pub(crate) fn result(self) -> Kind {
+        match self {
+            Self::Binary(op, _) if is_comparison(op) => Kind::B,
+            Self::Unary(_, kind) | Self::Binary(_, kind) | Self::Math(_, kind) => kind.into(),
+            Self::Convert(_, to) | Self::Bitcast(to) => to.into(),
+            Self::FrexpExponent => Kind::I,
+            Self::Half => Kind::F,
+            Self::Relational(_) => Kind::B,
+        }
+    }
+
+    /// What it takes of a processor.
+    pub(crate) fn class(self) -> Class {
+        match self {
+            Self::Binary(BinaryOperator::Divide | BinaryOperator::Modulo, ScalarKind::Float) => {
+                Class::DivideSqrt
+            }
+            Self::Math(function, _) => Class::of(function).unwrap_or(Class::Arithmetic),
+            _ => Class::Arithmetic,
+        }
     }
 }
 
-/// Float to float, two arguments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-pub(crate) enum F2 {
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Rem,
-    Min,
-    Max,
-    Step,
-    Pow,
-    Atan2,
+/// Classes of operations by what they take of a processor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Class {
+    Arithmetic,
+    DivideSqrt,
+    /// A library call or a polynomial.
+    Elementary,
 }
 
-/// Float to integer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FToI {
-    Signed,
-    Unsigned,
-    Bits,
-    FrexpExponent,
+impl Class {
+    /// That of a built-in function which the lanes have for each component of its arguments; `None`
+    /// for the others.
+    pub(crate) fn of(function: MathFunction) -> Option<Self> {
+        use MathFunction::*;
+        Some(match function {
+            Abs | Sign | Floor | Ceil | Round | Trunc | Degrees | Radians | QuantizeToF16 | Min
+            | Max | Step | Fma | Ldexp | CountOneBits | CountLeadingZeros | CountTrailingZeros
+            | ReverseBits | FirstTrailingBit | FirstLeadingBit | ExtractBits | InsertBits => {
+                Self::Arithmetic
+            }
+            Sqrt | InverseSqrt => Self::DivideSqrt,
+            Sin | Cos | Tan | Asin | Acos | Atan | Sinh | Cosh | Tanh | Asinh | Acosh | Atanh
+            | Exp | Exp2 | Log | Log2 | Pow | Atan2 => Self::Elementary,
+            _ => return None,
+        })
+    }
 }
 
-/// Integer to float.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum IToF {
-    Signed,
-    Unsigned,
-    Bits,
-    /// The low 16 bits as binary16.
-    Half,
-}
-
-/// Integer to integer, one argument.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum I1 {
-    Neg,
-    Not,
-    Abs,
-    Sign,
-    CountOneBits,
-    CountLeadingZeros,
-    CountTrailingZeros,
-    ReverseBits,
-    FirstTrailingBit,
-    FirstLeadingBitSigned,
-    FirstLeadingBitUnsigned,
-}
-
-/// Integer to integer, two arguments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum I2 {
-    Add,
-    Sub,
-    Mul,
-    DivSigned,
-    DivUnsigned,
-    RemSigned,
-    RemUnsigned,
-    And,
-    Or,
-    Xor,
-    ShiftLeft,
-    ShiftRightSigned,
-    ShiftRightUnsigned,
-    MinSigned,
-    MinUnsigned,
-    MaxSigned,
-    MaxUnsigned,
-}
-
-/// Comparison; the order of integers is signed or not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Compare {
-    Equal,
-    NotEqual,
-    Less,
-    LessEqual,
-    Greater,
-    GreaterEqual,
-}
-
-/// Truth values, two arguments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum B2 {
-    And,
-    Or,
-    Equal,
-    NotEqual,
+/// True for the operators that give a truth value of two numbers.
+pub(crate) fn is_comparison(op: BinaryOperator) -> bool {
+    use BinaryOperator::*;
+    matches!(op, Equal | NotEqual | Less | LessEqual | Greater | GreaterEqual)
 }

@@ -7,167 +7,73 @@
 
 use std::sync::Arc;
 
+use naga::ScalarKind;
+
 use super::ScalarType;
-use super::operation::{B2, Compare, F1, F2, FToI, I1, I2, IToF};
+use super::operation::Op;
 
 /// Index into the register file of one kind.
 pub(crate) type Slot = u32;
 
-/// A register: its kind and its index among the registers of that kind.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Reg {
-    /// A floating-point number of the lanes' type.
-    F(Slot),
-    /// 32 bits of an `i32` or `u32`.
-    I(Slot),
-    /// A truth value.
-    B(Slot),
-}
-
 /// Kind of a scalar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Kind {
+    /// A floating-point number of the lanes' type.
     F,
+    /// 32 bits of an `i32` or `u32`.
     I,
+    /// A truth value.
     B,
 }
 
-impl From<ScalarType> for Kind {
-    fn from(scalar: ScalarType) -> Self {
-        match scalar {
-            ScalarType::F32 => Self::F,
-            ScalarType::I32 | ScalarType::U32 => Self::I,
+impl Kind {
+    /// Register `slot` of this kind.
+    pub(crate) fn reg(self, slot: Slot) -> Reg {
+        Reg { kind: self, slot }
+    }
+}
+
+impl From<ScalarKind> for Kind {
+    fn from(kind: ScalarKind) -> Self {
+        match kind {
+            ScalarKind::Float | ScalarKind::AbstractFloat => Self::F,
+            ScalarKind::Sint | ScalarKind::Uint | ScalarKind::AbstractInt => Self::I,
+            ScalarKind::Bool => Self::B,
         }
     }
 }
 
-/// One instruction over all lanes.
+impl From<ScalarType> for Kind {
+    fn from(scalar: ScalarType) -> Self {
+        if scalar == ScalarType::F32 { Self::F } else { Self::I }
+    }
+}
+
+/// A register: its kind and its index among the registers of that kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct Reg {
+    pub(crate) kind: Kind,
+    pub(crate) slot: Slot,
+}
+
+/// One instruction over all lanes. Registers without a kind of their own are of the kind of the
+/// one register that has one; conditions are truth values, and indices integers.
 #[derive(Debug, Clone)]
 pub(crate) enum Instr {
-    F1 {
-        op: F1,
-        to: Slot,
-        a: Slot,
-    },
-    F2 {
-        op: F2,
-        to: Slot,
-        a: Slot,
-        b: Slot,
-    },
-    Fma {
-        to: Slot,
-        a: Slot,
-        b: Slot,
-        c: Slot,
-    },
-    Ldexp {
-        to: Slot,
-        a: Slot,
-        exponent: Slot,
-    },
-    FToI {
-        op: FToI,
-        to: Slot,
-        a: Slot,
-    },
-    IToF {
-        op: IToF,
-        to: Slot,
-        a: Slot,
-    },
-    CompareF {
-        op: Compare,
-        to: Slot,
-        a: Slot,
-        b: Slot,
-    },
-    IsNan {
-        to: Slot,
-        a: Slot,
-    },
-    IsInf {
-        to: Slot,
-        a: Slot,
-    },
-    I1 {
-        op: I1,
-        to: Slot,
-        a: Slot,
-    },
-    I2 {
-        op: I2,
-        to: Slot,
-        a: Slot,
-        b: Slot,
-    },
-    ExtractBits {
-        signed: bool,
-        to: Slot,
-        a: Slot,
-        offset: Slot,
-        count: Slot,
-    },
-    InsertBits {
-        to: Slot,
-        a: Slot,
-        bits: Slot,
-        offset: Slot,
-        count: Slot,
-    },
-    CompareI {
-        op: Compare,
-        signed: bool,
-        to: Slot,
-        a: Slot,
-        b: Slot,
-    },
-    Not {
-        to: Slot,
-        a: Slot,
-    },
-    B2 {
-        op: B2,
-        to: Slot,
-        a: Slot,
-        b: Slot,
-    },
-    /// `to = when ? yes : no`, all three of one kind.
-    Select {
-        to: Reg,
-        when: Slot,
-        yes: Reg,
-        no: Reg,
-    },
+    /// `to = op(from …)`; the places beyond its arguments repeat the first.
+    Compute { op: Op, to: Reg, from: [Reg; 4] },
+    /// `to = when ? yes : no`.
+    Select { to: Reg, when: Slot, yes: Slot, no: Slot },
     /// `to = table[index + offset]`.
-    Table {
-        to: Reg,
-        table: u32,
-        index: Slot,
-        offset: u32,
-    },
+    Table { to: Reg, table: u32, index: Slot, offset: u32 },
     /// `to = from[index]`.
-    Gather {
-        to: Reg,
-        from: Box<[Reg]>,
-        index: Slot,
-    },
+    Gather { to: Reg, from: Box<[Slot]>, index: Slot },
     /// Copies for every lane.
-    Move {
-        to: Reg,
-        from: Reg,
-    },
+    Move { to: Reg, from: Slot },
     /// Copies for the active lanes.
-    Store {
-        to: Reg,
-        from: Reg,
-    },
+    Store { to: Reg, from: Slot },
     /// `to[index] = from` for the active lanes.
-    Scatter {
-        to: Box<[Reg]>,
-        index: Slot,
-        from: Reg,
-    },
+    Scatter { to: Box<[Slot]>, index: Slot, from: Reg },
 }
 
 /// A sequence of nodes.
@@ -216,125 +122,67 @@ pub(crate) struct Program {
     pub(crate) prologue: Vec<Instr>,
     /// Runs for every chunk of lanes.
     pub(crate) body: Block,
-    pub(crate) floats: u32,
-    pub(crate) integers: u32,
-    pub(crate) booleans: u32,
+    /// Number of registers, by [`Kind`].
+    pub(crate) registers: [u32; 3],
     pub(crate) masks: u32,
-    pub(crate) float_constants: Vec<(Slot, f32)>,
-    pub(crate) integer_constants: Vec<(Slot, u32)>,
-    pub(crate) boolean_constants: Vec<(Slot, bool)>,
+    /// Registers that never change, and the bits of an f32, an integer or a truth value.
+    pub(crate) constants: Vec<(Reg, u32)>,
     /// The scalars of tables and constant arrays, by their bits; a truth value is 0 or 1.
     pub(crate) tables: Vec<Arc<[u32]>>,
-    /// Registers of the parameters, in their order.
+    /// Registers of the parameters, in their order; floats.
     pub(crate) parameters: Vec<Slot>,
     /// Registers of the scalar inputs, in their order.
     pub(crate) inputs: Vec<Reg>,
-    /// Registers of the scalar outputs, in their order.
+    /// Registers of the scalar outputs, in their order; floats.
     pub(crate) outputs: Vec<Slot>,
 }
 
 impl Instr {
     /// The registers that the instruction reads and those it writes.
     pub(crate) fn visit(&self, mut reads: impl FnMut(Reg), mut writes: impl FnMut(Reg)) {
-        use Reg::{B, F, I};
+        use Kind::{B, I};
         match *self {
-            Self::F1 { to, a, .. } => {
-                reads(F(a));
-                writes(F(to));
-            }
-            Self::F2 { to, a, b, .. } => {
-                reads(F(a));
-                reads(F(b));
-                writes(F(to));
-            }
-            Self::Fma { to, a, b, c } => {
-                reads(F(a));
-                reads(F(b));
-                reads(F(c));
-                writes(F(to));
-            }
-            Self::Ldexp { to, a, exponent } => {
-                reads(F(a));
-                reads(I(exponent));
-                writes(F(to));
-            }
-            Self::FToI { to, a, .. } => {
-                reads(F(a));
-                writes(I(to));
-            }
-            Self::IToF { to, a, .. } => {
-                reads(I(a));
-                writes(F(to));
-            }
-            Self::CompareF { to, a, b, .. } => {
-                reads(F(a));
-                reads(F(b));
-                writes(B(to));
-            }
-            Self::IsNan { to, a } | Self::IsInf { to, a } => {
-                reads(F(a));
-                writes(B(to));
-            }
-            Self::I1 { to, a, .. } => {
-                reads(I(a));
-                writes(I(to));
-            }
-            Self::I2 { to, a, b, .. } => {
-                reads(I(a));
-                reads(I(b));
-                writes(I(to));
-            }
-            Self::ExtractBits { to, a, offset, count, .. } => {
-                reads(I(a));
-                reads(I(offset));
-                reads(I(count));
-                writes(I(to));
-            }
-            Self::InsertBits { to, a, bits, offset, count } => {
-                reads(I(a));
-                reads(I(bits));
-                reads(I(offset));
-                reads(I(count));
-                writes(I(to));
-            }
-            Self::CompareI { to, a, b, .. } => {
-                reads(I(a));
-                reads(I(b));
-                writes(B(to));
-            }
-            Self::Not { to, a } => {
-                reads(B(a));
-                writes(B(to));
-            }
-            Self::B2 { to, a, b, .. } => {
-                reads(B(a));
-                reads(B(b));
-                writes(B(to));
+            Self::Compute { to, from, .. } => {
+                from.into_iter().for_each(&mut reads);
+                writes(to);
             }
             Self::Select { to, when, yes, no } => {
-                reads(B(when));
-                reads(yes);
-                reads(no);
+                reads(B.reg(when));
+                reads(to.kind.reg(yes));
+                reads(to.kind.reg(no));
                 writes(to);
             }
             Self::Table { to, index, .. } => {
-                reads(I(index));
+                reads(I.reg(index));
                 writes(to);
             }
             Self::Gather { to, ref from, index } => {
-                from.iter().for_each(|&reg| reads(reg));
-                reads(I(index));
+                from.iter().for_each(|&slot| reads(to.kind.reg(slot)));
+                reads(I.reg(index));
                 writes(to);
             }
             Self::Move { to, from } | Self::Store { to, from } => {
-                reads(from);
+                reads(to.kind.reg(from));
                 writes(to);
             }
             Self::Scatter { ref to, index, from } => {
-                reads(I(index));
+                reads(I.reg(index));
                 reads(from);
-                to.iter().for_each(|&reg| writes(reg));
+                to.iter().for_each(|&slot| writes(from.kind.reg(slot)));
             }
+        }
+    }
+}
+
+impl Node {
+    /// The blocks inside.
+    pub(crate) fn blocks(&self) -> Vec<&Block> {
+        match self {
+            Self::If { accept, reject, .. } => vec![accept, reject],
+            Self::Switch { cases, .. } => cases.iter().map(|case| &case.body).collect(),
+            Self::Loop { body, continuing, .. } => vec![body, continuing],
+            Self::Call(body) => vec![body],
+            Self::Run { .. } | Self::Break(_) | Self::Continue(_) | Self::Return => Vec::new(),
         }
     }
 }
@@ -342,21 +190,9 @@ impl Instr {
 /// Calls `visit` with every instruction of a block, those of inner blocks included.
 pub(crate) fn each_instr<'b>(block: &'b [Node], visit: &mut impl FnMut(&'b Instr)) {
     for node in block {
-        match node {
-            Node::Run { instrs, .. } => instrs.iter().for_each(&mut *visit),
-            Node::If { accept, reject, .. } => {
-                each_instr(accept, visit);
-                each_instr(reject, visit);
-            }
-            Node::Switch { cases, .. } => {
-                cases.iter().for_each(|case| each_instr(&case.body, visit));
-            }
-            Node::Loop { body, continuing, .. } => {
-                each_instr(body, visit);
-                each_instr(continuing, visit);
-            }
-            Node::Call(body) => each_instr(body, visit),
-            Node::Break(_) | Node::Continue(_) | Node::Return => {}
+        if let Node::Run { instrs, .. } = node {
+            instrs.iter().for_each(&mut *visit);
         }
+        node.blocks().into_iter().for_each(|block| each_instr(block, visit));
     }
 }

@@ -47,7 +47,7 @@ pub struct AdapterReport {
     /// Identity.
     #[serde(flatten)]
     pub description: AdapterDescription,
-    /// Whether [`super::open`] would use this one.
+    /// Whether [`super::Device::open`] would use this one.
     pub preferred: bool,
     /// Timestamps on the device; without them timings use the host's clock.
     pub timestamp_query: bool,
@@ -73,15 +73,26 @@ pub fn required() -> bool {
 /// Every adapter, in the order of preference.
 pub fn list_adapters() -> Vec<AdapterReport> {
     let adapters = enumerate();
-    let preferred = preferred_index(&adapters, wanted_name().as_deref()).ok();
+    let preferred = preferred_index(&adapters).ok();
     adapters.iter().enumerate().map(|(i, adapter)| report(adapter, preferred == Some(i))).collect()
 }
 
 /// The adapter to use: the best one whose name contains `WGPU_ADAPTER_NAME`, if that is set.
 pub(super) fn preferred() -> Result<wgpu::Adapter, NoDevice> {
     let mut adapters = enumerate();
-    let index = preferred_index(&adapters, wanted_name().as_deref())?;
+    let index = preferred_index(&adapters)?;
     Ok(adapters.swap_remove(index))
+}
+
+/// Rank and name of a kind of device.
+fn kind(device_type: wgpu::DeviceType) -> (u8, &'static str) {
+    match device_type {
+        wgpu::DeviceType::DiscreteGpu => (0, "discrete"),
+        wgpu::DeviceType::IntegratedGpu => (1, "integrated"),
+        wgpu::DeviceType::VirtualGpu => (2, "virtual"),
+        wgpu::DeviceType::Cpu => (3, "cpu"),
+        wgpu::DeviceType::Other => (4, "other"),
+    }
 }
 
 pub(super) fn describe(info: &wgpu::AdapterInfo) -> AdapterDescription {
@@ -90,14 +101,7 @@ pub(super) fn describe(info: &wgpu::AdapterInfo) -> AdapterDescription {
         driver: info.driver.clone(),
         driver_info: info.driver_info.clone(),
         backend: info.backend.to_str().to_owned(),
-        device_type: match info.device_type {
-            wgpu::DeviceType::DiscreteGpu => "discrete",
-            wgpu::DeviceType::IntegratedGpu => "integrated",
-            wgpu::DeviceType::VirtualGpu => "virtual",
-            wgpu::DeviceType::Cpu => "cpu",
-            wgpu::DeviceType::Other => "other",
-        }
-        .to_owned(),
+        device_type: kind(info.device_type).1.to_owned(),
         vendor: format!("{:#06x}", info.vendor),
         device: format!("{:#06x}", info.device),
     }
@@ -121,29 +125,19 @@ fn enumerate() -> Vec<wgpu::Adapter> {
 /// Sort key: kind of device, backend, then identity, so that the choice does not depend on the
 /// order in which the loader finds the drivers.
 fn rank(info: &wgpu::AdapterInfo) -> (u8, u8, String, u32, u32, String) {
-    let kind = match info.device_type {
-        wgpu::DeviceType::DiscreteGpu => 0,
-        wgpu::DeviceType::IntegratedGpu => 1,
-        wgpu::DeviceType::VirtualGpu => 2,
-        wgpu::DeviceType::Cpu => 3,
-        wgpu::DeviceType::Other => 4,
-    };
     let backend = match info.backend {
         wgpu::Backend::Vulkan => 0,
         wgpu::Backend::Metal => 1,
         _ => 2,
     };
     let bus = info.device_pci_bus_id.clone();
-    (kind, backend, info.name.clone(), info.vendor, info.device, bus)
+    (kind(info.device_type).0, backend, info.name.clone(), info.vendor, info.device, bus)
 }
 
-fn wanted_name() -> Option<String> {
-    std::env::var("WGPU_ADAPTER_NAME").ok().filter(|name| !name.trim().is_empty())
-}
-
-fn preferred_index(adapters: &[wgpu::Adapter], wanted: Option<&str>) -> Result<usize, NoDevice> {
+fn preferred_index(adapters: &[wgpu::Adapter]) -> Result<usize, NoDevice> {
+    let wanted = std::env::var("WGPU_ADAPTER_NAME").ok();
     let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
-    position(&names, wanted)
+    position(&names, wanted.as_deref().filter(|name| !name.trim().is_empty()))
 }
 
 /// Index of the first of `names` that contains `wanted`, whatever the case.

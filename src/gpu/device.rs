@@ -4,7 +4,7 @@ use super::adapter::{self, AdapterDescription};
 use super::error::{GpuError, NoDevice};
 use super::pipelines::{PipelineCount, Pipelines};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use std::time::Duration;
 
 /// Longest wait for one submission, seconds. Chunks of [`super::DeviceKernel::evaluate`] take
@@ -16,6 +16,7 @@ const WAIT_SECONDS: u64 = 120;
 pub struct Device {
     pub(super) raw: wgpu::Device,
     pub(super) queue: wgpu::Queue,
+    /// Of every kernel: inputs, outputs, and four sizes.
     pub(super) bindings: wgpu::BindGroupLayout,
     pub(super) layout: wgpu::PipelineLayout,
     pub(super) pipelines: Pipelines,
@@ -30,22 +31,14 @@ struct Faults {
     uncaptured: Option<String>,
 }
 
-/// Opens the preferred adapter.
-///
-/// Discrete before integrated before virtual before software; `WGPU_ADAPTER_NAME` (part of a name,
-/// any case) picks another.
-///
-/// # Errors
-/// [`NoDevice`] if there is no adapter, none of that name, or it does not open.
-pub fn open() -> Result<Device, NoDevice> {
-    Device::open()
-}
-
 impl Device {
-    /// See [`open`].
+    /// Opens the preferred adapter.
+    ///
+    /// Discrete before integrated before virtual before software; `WGPU_ADAPTER_NAME` (part of a
+    /// name, any case) picks another.
     ///
     /// # Errors
-    /// As [`open`].
+    /// [`NoDevice`] if there is no adapter, none of that name, or it does not open.
     pub fn open() -> Result<Self, NoDevice> {
         let adapter = adapter::preferred()?;
         let description = adapter::describe(&adapter.get_info());
@@ -61,12 +54,16 @@ impl Device {
             reason: error.to_string(),
         })?;
         let faults = watch(&raw);
-        let bindings = bindings(&raw);
-        let layout = raw.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("striae"),
-            bind_group_layouts: &[Some(&bindings)],
-            immediate_size: 0,
-        });
+        let bindings = group_layout(
+            &raw,
+            "striae",
+            &[
+                wgpu::BufferBindingType::Storage { read_only: true },
+                wgpu::BufferBindingType::Storage { read_only: false },
+                wgpu::BufferBindingType::Uniform,
+            ],
+        );
+        let layout = pipeline_layout(&raw, "striae", &[Some(&bindings)]);
         let pipelines = Pipelines::default();
         Ok(Self { raw, queue, bindings, layout, pipelines, description, faults })
     }
@@ -135,24 +132,17 @@ impl Device {
 
     /// Reads `bytes` bytes from the start of `buffer`, which was created for reading.
     pub(super) fn read(&self, buffer: &wgpu::Buffer, bytes: u64) -> Result<Vec<u8>, GpuError> {
-        let outcome = Arc::new(Mutex::new(None));
-        let written = Arc::clone(&outcome);
+        let (sender, outcome) = mpsc::channel();
         self.guarded(|| {
-            buffer.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
-                *written.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
-            });
+            // Whoever waits is below, and has no use for a late answer.
+            let send = move |result| drop(sender.send(result));
+            buffer.map_async(wgpu::MapMode::Read, 0..bytes, send);
         })?;
         self.wait()?;
-        match outcome.lock().unwrap_or_else(PoisonError::into_inner).take() {
-            Some(Ok(())) => {}
-            Some(Err(error)) => return Err(GpuError::Device(error.to_string())),
-            None => return Err(GpuError::Device("a buffer was not mapped".to_owned())),
-        }
-        let view = buffer
-            .get_mapped_range(0..bytes)
-            .map_err(|error| GpuError::Device(error.to_string()))?;
-        let copy = view.to_vec();
-        drop(view);
+        let failed = |error: &dyn std::fmt::Display| GpuError::Device(error.to_string());
+        let mapped = outcome.try_recv().map_err(|_| failed(&"a buffer was not mapped"))?;
+        mapped.map_err(|error| failed(&error))?;
+        let copy = buffer.get_mapped_range(0..bytes).map_err(|error| failed(&error))?.to_vec();
         buffer.unmap();
         Ok(copy)
     }
@@ -185,21 +175,51 @@ fn watch(device: &wgpu::Device) -> Arc<Mutex<Faults>> {
     faults
 }
 
-/// The bindings of every kernel: inputs, outputs, and four sizes.
-fn bindings(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+/// The layout of a group of buffers, one binding each.
+pub(super) fn group_layout(
+    device: &wgpu::Device,
+    label: &str,
+    types: &[wgpu::BufferBindingType],
+) -> wgpu::BindGroupLayout {
+    let entry = |(binding, &ty)| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::COMPUTE,
         ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
         count: None,
     };
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("striae"),
-        entries: &[
-            entry(0, wgpu::BufferBindingType::Storage { read_only: true }),
-            entry(1, wgpu::BufferBindingType::Storage { read_only: false }),
-            entry(2, wgpu::BufferBindingType::Uniform),
-        ],
+        label: Some(label),
+        entries: &(0..).zip(types).map(entry).collect::<Vec<_>>(),
+    })
+}
+
+/// Buffers as a group of that layout, in the order of their bindings.
+pub(super) fn group<'b>(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    buffers: impl IntoIterator<Item = &'b wgpu::Buffer>,
+) -> wgpu::BindGroup {
+    let entry = |(binding, buffer): (u32, &'b wgpu::Buffer)| wgpu::BindGroupEntry {
+        binding,
+        resource: buffer.as_entire_binding(),
+    };
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &(0..).zip(buffers).map(entry).collect::<Vec<_>>(),
+    })
+}
+
+pub(super) fn pipeline_layout(
+    device: &wgpu::Device,
+    label: &str,
+    groups: &[Option<&wgpu::BindGroupLayout>],
+) -> wgpu::PipelineLayout {
+    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: groups,
+        immediate_size: 0,
     })
 }
 

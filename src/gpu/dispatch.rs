@@ -1,6 +1,6 @@
 //! A form compiled for the device, evaluated over any number of points.
 
-use super::device::Device;
+use super::device::{Device, group};
 use super::error::GpuError;
 use super::program::{Pipeline, Program, Purpose, WORKGROUP};
 use crate::form::{Form, Input};
@@ -171,14 +171,7 @@ pub(super) fn bind(
     outputs: &wgpu::Buffer,
     size: &wgpu::Buffer,
 ) -> wgpu::BindGroup {
-    let entries = [(0, inputs), (1, outputs), (2, size)].map(|(binding, buffer)| {
-        wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() }
-    });
-    device.raw.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("striae"),
-        layout: &device.bindings,
-        entries: &entries,
-    })
+    group(&device.raw, "striae", &device.bindings, [inputs, outputs, size])
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ mod tables;
 mod timing;
 
 pub use adapter::{AdapterDescription, AdapterReport, list_adapters, required};
-pub use device::{Device, open};
+pub use device::Device;
 pub use dispatch::DeviceKernel;
 pub use error::{GpuError, NoDevice};
 pub use pipelines::PipelineCount;

@@ -1,6 +1,6 @@
 //! The tables of a form in buffers of the device.
 
-use super::device::Device;
+use super::device::{Device, group, group_layout, pipeline_layout};
 use super::error::GpuError;
 use crate::form::{DataTable, TABLE_GROUP};
 use wgpu::util::DeviceExt;
@@ -16,50 +16,19 @@ impl BoundTables {
     /// Uploads `tables`, one buffer each.
     pub(super) fn new(device: &Device, tables: &[DataTable]) -> Result<Self, GpuError> {
         device.guarded(|| {
-            let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..)
-                .zip(tables)
-                .map(|(binding, _)| wgpu::BindGroupLayoutEntry {
-                    binding,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::Buffer {
-                        ty: wgpu::BufferBindingType::Storage { read_only: true },
-                        has_dynamic_offset: false,
-                        min_binding_size: None,
-                    },
-                    count: None,
+            let read_only = wgpu::BufferBindingType::Storage { read_only: true };
+            let bindings = group_layout(&device.raw, "tables", &vec![read_only; tables.len()]);
+            let buffer = |table: &DataTable| {
+                device.raw.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                    label: Some(table.name()),
+                    contents: bytemuck::cast_slice(&table.buffer_words()),
+                    usage: wgpu::BufferUsages::STORAGE,
                 })
-                .collect();
-            let bindings = device.raw.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some("tables"),
-                entries: &entries,
-            });
-            let buffers: Vec<wgpu::Buffer> = tables
-                .iter()
-                .map(|table| {
-                    device.raw.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                        label: Some(table.name()),
-                        contents: bytemuck::cast_slice(&table.buffer_words()),
-                        usage: wgpu::BufferUsages::STORAGE,
-                    })
-                })
-                .collect();
-            let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
-                .zip(&buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
-            let group = device.raw.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("tables"),
-                layout: &bindings,
-                entries: &entries,
-            });
-            let layout = device.raw.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("striae with tables"),
-                bind_group_layouts: &[Some(&device.bindings), Some(&bindings)],
-                immediate_size: 0,
-            });
+            };
+            let buffers: Vec<wgpu::Buffer> = tables.iter().map(buffer).collect();
+            let group = group(&device.raw, "tables", &bindings, &buffers);
+            let groups = [Some(&device.bindings), Some(&bindings)];
+            let layout = pipeline_layout(&device.raw, "striae with tables", &groups);
             Self { layout, group }
         })
     }

@@ -237,7 +237,7 @@ pub(super) fn require_size(origin: &str, width: usize, height: usize) -> Result<
     let limit = u128::from(MAX_PIXEL_BYTES);
     if declared > limit {
         let why = "the largest map that is read";
-        return Err(TableError::TooLarge { origin: origin.into(), declared, limit, why }.into());
+        return Err(TableError::too_large(origin, declared, limit, why).into());
     }
     Ok(())
 }

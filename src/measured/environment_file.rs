@@ -9,7 +9,7 @@ use image::{DynamicImage, ImageDecoder};
 use super::environment::require_size;
 use super::import::{extension, unknown_format};
 use super::{Environment, MeasuredError, Negative};
-use crate::table::{decode_exr, encode_exr, encode_half_exr, store};
+use crate::table::{decode_exr, encode_exr, halves, singles, store};
 
 /// The channels of a map.
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
@@ -75,12 +75,13 @@ impl Environment {
         let planes = [0, 1, 2].map(plane);
         let channels: Vec<(&str, &[f32])> =
             CHANNELS.into_iter().zip(planes.iter().map(Vec::as_slice)).collect();
-        let encode = match planes.iter().flatten().copied().fold(0.0, f32::max) {
-            SMALLEST_HALF..=LARGEST_HALF => encode_half_exr,
-            _ => encode_exr,
+        let samples = match planes.iter().flatten().copied().fold(0.0, f32::max) {
+            SMALLEST_HALF..=LARGEST_HALF => halves,
+            _ => singles,
         };
         let path = path.as_ref();
-        let bytes = encode(&path.display().to_string(), self.width, self.height, &channels)?;
+        let bytes =
+            encode_exr(&path.display().to_string(), (self.width, self.height), &channels, samples)?;
         Ok(store::atomic_write(path, &bytes)?)
     }
 }

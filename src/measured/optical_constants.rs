@@ -87,7 +87,7 @@ impl OpticalConstants {
 /// Every `*.csv` of a folder, sorted by material and source.
 ///
 /// # Errors
-/// As [`OpticalConstants::read`]; [`TableError::Empty`] for a folder without CSV files.
+/// As [`OpticalConstants::read`]; [`TableError::Content`] for a folder without CSV files.
 pub fn load(folder: &Path) -> Result<Vec<OpticalConstants>, MeasuredError> {
     let unreadable = |source| TableError::Unreadable { path: folder.into(), source };
     let mut constants = Vec::new();
@@ -99,7 +99,7 @@ pub fn load(folder: &Path) -> Result<Vec<OpticalConstants>, MeasuredError> {
     }
     if constants.is_empty() {
         let origin = folder.display().to_string();
-        return Err(TableError::Empty { origin, what: "no CSV files in the folder" }.into());
+        return Err(TableError::content(origin, "no CSV files in the folder").into());
     }
     constants.sort_by(|a, b| (&a.material, &a.source).cmp(&(&b.material, &b.source)));
     Ok(constants)

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use rayon::prelude::*;
 
 use crate::form::Form;
+use crate::form::lanes::Evaluator;
 use crate::gpu::{self, Device};
 
 use super::error::RenderError;
@@ -90,7 +91,7 @@ fn on_lanes(kernel: &Kernel, inputs: &[Vec<f32>], rows: usize) -> Result<Columns
     let parts: Vec<Vec<Vec<f32>>> = starts
         .into_par_iter()
         .map_init(
-            || kernel.form.evaluator_f32(),
+            || Evaluator::<f32>::new(&kernel.form),
             |evaluator, start| {
                 let range = start..rows.min(start + task);
                 let columns: Vec<&[f32]> =

@@ -5,7 +5,7 @@ use std::path::Path;
 use ::image::{ExtendedColorType, ImageEncoder};
 
 use crate::measured::{decoded_png, srgb};
-use crate::table::{TableError, decode_exr, encode_exr, store};
+use crate::table::{TableError, decode_exr, encode_exr, singles, store};
 
 /// What the name of a channel of standard errors begins with: `stderr.R` belongs to `R`.
 pub const STANDARD_ERROR_PREFIX: &str = "stderr.";
@@ -121,7 +121,8 @@ impl Image {
         let path = path.as_ref();
         let channels: Vec<(&str, &[f32])> =
             self.channels.iter().map(|c| (c.name.as_str(), c.values.as_slice())).collect();
-        let bytes = encode_exr(&path.display().to_string(), self.width, self.height, &channels)?;
+        let bytes =
+            encode_exr(&path.display().to_string(), (self.width, self.height), &channels, singles)?;
         Ok(store::atomic_write(path, &bytes)?)
     }
 

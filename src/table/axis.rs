@@ -73,20 +73,17 @@ impl Axis {
     }
 
     pub(super) fn check(&self, origin: &str) -> Result<(), TableError> {
-        let fault = |reason: String| TableError::Malformed { origin: origin.into(), reason };
+        let fault = |reason: String| Err(TableError::malformed(origin, reason));
         if let Some(reason) = super::csv::name_fault(&self.name) {
-            return Err(fault(format!("axis {:?}: {reason}", self.name)));
+            return fault(format!("axis {:?}: {reason}", self.name));
         }
         units::require(&self.unit, origin, &self.name)?;
         if !(self.from.is_finite() && self.to.is_finite()) || self.from == self.to {
-            let (from, to) = (self.from, self.to);
-            let name = &self.name;
-            return Err(fault(format!(
-                "axis {name:?} goes from {from} to {to}, which is no range"
-            )));
+            let Self { name, from, to, .. } = self;
+            return fault(format!("axis {name:?} goes from {from} to {to}, which is no range"));
         }
         if self.count == 0 {
-            return Err(fault(format!("axis {:?} has no texels", self.name)));
+            return fault(format!("axis {:?} has no texels", self.name));
         }
         Ok(())
     }

@@ -75,19 +75,18 @@ impl Table {
             .trim(Trim::All)
             .from_reader(text.as_bytes());
         let mut records = reader.records();
-        let empty = |what| TableError::Empty { origin: origin.into(), what };
-        let Some(first) = records.next() else { return Err(empty("no header")) };
+        let first = records.next().ok_or_else(|| TableError::content(origin, "no header"))?;
         let first = first.map_err(|e| malformed(origin, &e))?;
         let headers = parse_header(origin, line_of(text, &first), &first)?;
 
         let mut cells: Vec<Vec<f64>> = vec![Vec::new(); headers.len()];
         for (index, record) in records.enumerate() {
             let record = record.map_err(|e| malformed(origin, &e))?;
-            let place = Place { origin, line: line_of(text, &record), row: index + 1, text };
-            place.read_row(&record, &headers, &mut cells, options)?;
+            let place = Place { origin, line: line_of(text, &record), row: index + 1 };
+            place.read_row(text, &record, &headers, &mut cells, options)?;
         }
         if cells.first().is_none_or(Vec::is_empty) {
-            return Err(empty("no rows under the header"));
+            return Err(TableError::content(origin, "no rows under the header"));
         }
         assemble(origin, headers, cells)
     }
@@ -98,27 +97,24 @@ impl Table {
     /// As [`Table::check`].
     pub fn to_csv(&self, notes: &[String]) -> Result<String, TableError> {
         self.check()?;
-        let mut out = String::new();
-        for line in notes.iter().flat_map(|note| note.lines()) {
-            out.push_str(&format!("# {line}\n"));
-        }
-        let cells = self.columns.iter().flat_map(|c| {
-            let uncertainty = c.uncertainty.as_ref().map(|_| format!("u({})", c.name));
-            std::iter::once(c.name.clone()).chain(uncertainty).map(|name| match c.unit.as_str() {
-                "1" => quoted(&name),
-                unit => quoted(&format!("{name} [{unit}]")),
+        let line = |cells: Vec<String>| cells.join(",") + "\n";
+        let parts: Vec<(String, &str, &[f64])> = self
+            .columns
+            .iter()
+            .flat_map(|c| {
+                let uncertainty = c.uncertainty.as_ref().map(|u| (format!("u({})", c.name), u));
+                let columns = std::iter::once((c.name.clone(), &c.values)).chain(uncertainty);
+                columns.map(|(name, values)| (name, c.unit.as_str(), values.as_slice()))
             })
+            .collect();
+        let header = parts.iter().map(|(name, unit, _)| match *unit {
+            "1" => quoted(name),
+            unit => quoted(&format!("{name} [{unit}]")),
         });
-        out.push_str(&cells.collect::<Vec<_>>().join(","));
-        out.push('\n');
+        let notes = notes.iter().flat_map(|note| note.lines()).map(|line| format!("# {line}\n"));
+        let mut out: String = notes.chain([line(header.collect())]).collect();
         for row in 0..self.rows() {
-            let values = self.columns.iter().flat_map(|c| {
-                std::iter::once(c.values.get(row))
-                    .chain(c.uncertainty.as_ref().map(|u| u.get(row)))
-                    .flatten()
-            });
-            out.push_str(&values.map(|v| shortest_number(*v)).collect::<Vec<_>>().join(","));
-            out.push('\n');
+            out += &line(parts.iter().map(|(.., values)| shortest_number(values[row])).collect());
         }
         Ok(out)
     }
@@ -186,31 +182,38 @@ fn line_of(text: &str, record: &StringRecord) -> u64 {
 
 fn malformed(origin: &str, error: &::csv::Error) -> TableError {
     let line = error.position().map_or(String::new(), |p| format!(":{}", p.line()));
-    TableError::Malformed { origin: format!("{origin}{line}"), reason: error.to_string() }
+    TableError::malformed(format!("{origin}{line}"), error)
 }
 
 fn parse_header(origin: &str, line: u64, record: &StringRecord) -> Result<Vec<Header>, TableError> {
     let mut headers: Vec<Header> = Vec::with_capacity(record.len());
     for (i, cell) in record.iter().enumerate() {
-        let header = parse_header_cell(cell).map_err(|reason| TableError::Header {
-            origin: origin.into(),
-            line,
-            position: i + 1,
-            header: cell.into(),
-            reason,
-        })?;
+        let header = parse_header_cell(cell)
+            .map_err(|reason| header_error(origin, line, i + 1, cell, reason))?;
         units::require(&header.unit, origin, &header.name)?;
         let same = |h: &Header| h.name == header.name && h.is_uncertainty == header.is_uncertainty;
         if headers.iter().any(same) {
-            return Err(TableError::DuplicateColumn {
-                origin: origin.into(),
-                line,
-                name: header.label(),
-            });
+            return Err(duplicate_error(origin, line, &header.label()));
         }
         headers.push(header);
     }
     Ok(headers)
+}
+
+/// What is wrong with a header cell, that of the column at `position` from 1.
+pub(super) fn header_error(
+    origin: &str,
+    line: u64,
+    position: usize,
+    header: &str,
+    reason: &str,
+) -> TableError {
+    let reason = format!("column {position}: header {header:?}: {reason}");
+    TableError::content(format!("{origin}:{line}"), reason)
+}
+
+pub(super) fn duplicate_error(origin: &str, line: u64, name: &str) -> TableError {
+    TableError::content(format!("{origin}:{line}"), format!("column {name:?} appears twice"))
 }
 
 fn parse_header_cell(cell: &str) -> Result<Header, &'static str> {
@@ -238,30 +241,30 @@ struct Place<'a> {
     origin: &'a str,
     line: u64,
     row: usize,
-    text: &'a str,
 }
 
 impl Place<'_> {
+    fn line(&self) -> String {
+        format!("{}:{}", self.origin, self.line)
+    }
+
     fn read_row(
         &self,
+        text: &str,
         record: &StringRecord,
         headers: &[Header],
         cells: &mut [Vec<f64>],
         options: ReadOptions,
     ) -> Result<(), TableError> {
-        if record.len() != headers.len() {
+        let (row, got, expected) = (self.row, record.len(), headers.len());
+        if got != expected {
             let at_end = record.position().is_some_and(|p| {
-                let rest = self.text.as_bytes().get(p.byte() as usize..).unwrap_or_default();
+                let rest = text.as_bytes().get(p.byte() as usize..).unwrap_or_default();
                 !rest.contains(&b'\n')
             });
-            return Err(TableError::RaggedRow {
-                origin: self.origin.into(),
-                line: self.line,
-                row: self.row,
-                expected: headers.len(),
-                got: record.len(),
-                hint: if at_end { "; the file ends here, it may be truncated" } else { "" },
-            });
+            let hint = if at_end { "; the file ends here, it may be truncated" } else { "" };
+            let reason = format!("row {row} has {got} cells, the header has {expected}{hint}");
+            return Err(TableError::content(self.line(), reason));
         }
         for ((cell, header), values) in record.iter().zip(headers).zip(cells) {
             values.push(self.read_cell(cell, header, options)?);
@@ -275,29 +278,18 @@ impl Place<'_> {
         header: &Header,
         options: ReadOptions,
     ) -> Result<f64, TableError> {
-        let value: f64 = cell.parse().map_err(|_| TableError::NotANumber {
-            origin: self.origin.into(),
-            line: self.line,
-            row: self.row,
-            column: header.label(),
-            got: cell.into(),
+        let row = self.row;
+        let value: f64 = cell.parse().map_err(|_| {
+            let column = header.label();
+            let reason = format!("row {row}, column {column:?}: expected a number, got {cell:?}");
+            TableError::content(self.line(), reason)
         })?;
         if !value.is_finite() && !options.allow_non_finite {
-            return Err(TableError::NonFinite {
-                origin: format!("{}:{}", self.origin, self.line),
-                row: self.row.to_string(),
-                column: header.label(),
-                got: value,
-            });
+            let column = header.label();
+            return Err(TableError::non_finite(&self.line(), &row.to_string(), &column, value));
         }
         if header.is_uncertainty && value < 0.0 {
-            return Err(TableError::NegativeUncertainty {
-                origin: self.origin.into(),
-                line: self.line,
-                row: self.row,
-                column: header.name.clone(),
-                got: value,
-            });
+            return Err(TableError::negative(self.line(), row, &header.name, value));
         }
         Ok(value)
     }
@@ -311,10 +303,9 @@ fn assemble(origin: &str, headers: Vec<Header>, cells: Vec<Vec<f64>>) -> Result<
         plain.into_iter().map(|(h, values)| Column::new(h.name, h.unit, values)).collect();
     for (header, values) in uncertain {
         let Some(column) = columns.iter_mut().find(|c| c.name == header.name) else {
-            return Err(TableError::OrphanUncertainty {
-                origin: origin.into(),
-                column: header.name,
-            });
+            let name = &header.name;
+            let reason = format!("uncertainty column \"u({name})\" has no column {name:?}");
+            return Err(TableError::content(origin, reason));
         };
         let factor = units::conversion(&header.unit, &column.unit, origin, &header.label())?;
         column.uncertainty = Some(values.into_iter().map(|v| v * factor).collect());

@@ -23,196 +23,57 @@ pub enum TableError {
         /// What stood in the way.
         reason: String,
     },
-    /// The file is not UTF-8 text.
-    #[error("{origin}:{line}: not UTF-8 text (byte {byte} of the file)")]
-    NotText {
-        /// The file.
-        origin: String,
-        /// Line of the first bad byte.
-        line: usize,
-        /// Offset of the first bad byte, from 0.
-        byte: usize,
+    /// What a file, or a table made in memory, holds is not what it is read or used as.
+    #[error("{place}: {reason}")]
+    Content {
+        /// The file with the line, where there are such, or the origin of the table.
+        place: String,
+        /// What is wrong: the row, the column, the unit, what was expected and what is there.
+        reason: String,
     },
-    /// There is no header or no row under it.
-    #[error("{origin}: {what}")]
-    Empty {
-        /// The file.
-        origin: String,
-        /// What is missing.
-        what: &'static str,
-    },
-    /// A header cell is not `name [unit]` or `u(name) [unit]`.
-    #[error("{origin}:{line}: column {position}: header {header:?}: {reason}")]
-    Header {
-        /// The file.
-        origin: String,
-        /// Line of the header.
-        line: u64,
-        /// Number of the column, from 1.
-        position: usize,
-        /// The cell as written.
-        header: String,
-        /// What is wrong with it.
-        reason: &'static str,
-    },
-    /// Two columns have one name.
-    #[error("{origin}:{line}: column {name:?} appears twice")]
-    DuplicateColumn {
-        /// The file.
-        origin: String,
-        /// Line of the header.
-        line: u64,
-        /// The name.
-        name: String,
-    },
-    /// A unit that this crate does not know.
-    #[error("{origin}: column {column:?}: unknown unit {unit:?}; known units: {known}")]
-    UnknownUnit {
-        /// The file.
-        origin: String,
-        /// The column.
-        column: String,
-        /// The unit as written.
-        unit: String,
-        /// All known units.
-        known: String,
-    },
-    /// A known unit where another dimension is needed.
-    #[error("{origin}: column {column:?}: expected a unit of {expected}, got {got:?}")]
-    UnitMismatch {
-        /// The file.
-        origin: String,
-        /// The column.
-        column: String,
-        /// The unit or the dimension that is needed.
-        expected: String,
-        /// The unit that is there.
-        got: String,
-    },
-    /// `u(name)` without a column `name`.
-    #[error("{origin}: uncertainty column \"u({column})\" has no column {column:?}")]
-    OrphanUncertainty {
-        /// The file.
-        origin: String,
-        /// The column that is missing.
-        column: String,
-    },
-    /// A standard uncertainty below zero.
-    #[error("{origin}:{line}: row {row}: \"u({column})\" is negative: {got}")]
-    NegativeUncertainty {
-        /// The file.
-        origin: String,
-        /// The line.
-        line: u64,
-        /// The row.
-        row: usize,
-        /// The column that the uncertainty belongs to.
-        column: String,
-        /// The value.
-        got: f64,
-    },
-    /// A row with more or fewer cells than the header.
-    #[error("{origin}:{line}: row {row} has {got} cells, the header has {expected}{hint}")]
-    RaggedRow {
-        /// The file.
-        origin: String,
-        /// The line.
-        line: u64,
-        /// The row.
-        row: usize,
-        /// Cells in the header.
-        expected: usize,
-        /// Cells in the row.
-        got: usize,
-        /// Extra words where the row is the last one and not ended.
-        hint: &'static str,
-    },
-    /// A cell that is not a number.
-    #[error("{origin}:{line}: row {row}, column {column:?}: expected a number, got {got:?}")]
-    NotANumber {
-        /// The file.
-        origin: String,
-        /// The line.
-        line: u64,
-        /// The row.
-        row: usize,
-        /// The column.
-        column: String,
-        /// The cell as written.
-        got: String,
-    },
-    /// NaN or an infinity where the caller did not allow it.
-    #[error("{origin}: row {row}, column {column:?}: expected a finite number, got {got}")]
-    NonFinite {
-        /// The file.
-        origin: String,
-        /// The row, or the texel in words.
-        row: String,
-        /// The column or channel.
-        column: String,
-        /// The value.
-        got: f64,
-    },
-    /// Columns of different lengths, or a grid whose values do not fill its axes.
-    #[error("{origin}: column {column:?} has {got} values, expected {expected}")]
-    Length {
-        /// The table.
-        origin: String,
-        /// The column or channel.
-        column: String,
-        /// Number of values that is needed.
-        expected: usize,
-        /// Number of values that is there.
-        got: usize,
-    },
-    /// A grid of another number of axes than its use asks for.
-    #[error("{origin}: {got} axes, expected {expected}")]
-    Dimension {
-        /// The grid.
-        origin: String,
-        /// Number of axes that is needed.
-        expected: usize,
-        /// Number of axes that is there.
-        got: usize,
-    },
-    /// A column or channel that is not there.
-    #[error("{origin}: no column {name:?}; it has: {known}")]
-    UnknownColumn {
-        /// The table.
-        origin: String,
-        /// The name asked for.
-        name: String,
-        /// The names that are there.
-        known: String,
-    },
+}
+
+impl TableError {
+    /// [`TableError::Content`].
+    pub(crate) fn content(place: impl Into<String>, reason: impl Into<String>) -> Self {
+        Self::Content { place: place.into(), reason: reason.into() }
+    }
+
     /// A file of another structure than its format says.
-    #[error("{origin}: malformed: {reason}")]
-    Malformed {
-        /// The file, with the line where it is known.
-        origin: String,
-        /// What is wrong.
-        reason: String,
-    },
-    /// A grid that is larger than this crate reads, or than its file can hold.
-    #[error("{origin}: declares {declared} bytes of pixels, the limit is {limit} ({why})")]
-    TooLarge {
-        /// The file.
-        origin: String,
-        /// Bytes that the header declares.
-        declared: u128,
-        /// The limit that applies.
-        limit: u128,
-        /// Where the limit comes from.
-        why: &'static str,
-    },
-    /// A file of a data set and its provenance record disagree.
-    #[error("{}: {name}: {reason}", folder.display())]
-    Provenance {
-        /// The folder of the data set.
-        folder: PathBuf,
-        /// The file.
-        name: String,
-        /// How they disagree.
-        reason: String,
-    },
+    pub(super) fn malformed(place: impl Into<String>, reason: impl std::fmt::Display) -> Self {
+        Self::content(place, format!("malformed: {reason}"))
+    }
+
+    /// A grid that is larger than this crate reads, or than its file can hold: bytes that its header
+    /// declares, the limit that applies, and where that comes from.
+    pub(crate) fn too_large(origin: &str, declared: u128, limit: u128, why: &str) -> Self {
+        let reason = format!("declares {declared} bytes of pixels, the limit is {limit} ({why})");
+        Self::content(origin, reason)
+    }
+
+    /// A column or channel that is not among the `known` ones.
+    pub(super) fn unknown_column<'a>(
+        origin: &str,
+        name: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        let known = known.into_iter().collect::<Vec<_>>().join(", ");
+        Self::content(origin, format!("no column {name:?}; it has: {known}"))
+    }
+
+    /// Columns of different lengths, or a grid whose values do not fill its axes.
+    pub(super) fn length(origin: &str, column: &str, expected: usize, got: usize) -> Self {
+        Self::content(origin, format!("column {column:?} has {got} values, expected {expected}"))
+    }
+
+    /// A standard uncertainty below zero in a row of a table.
+    pub(super) fn negative(place: String, row: usize, column: &str, got: f64) -> Self {
+        Self::content(place, format!("row {row}: \"u({column})\" is negative: {got}"))
+    }
+
+    /// NaN or an infinity, in a row or in a texel in words.
+    pub(super) fn non_finite(place: &str, row: &str, column: &str, got: f64) -> Self {
+        let reason = format!("row {row}, column {column:?}: expected a finite number, got {got}");
+        Self::content(place, reason)
+    }
 }

@@ -79,14 +79,11 @@ impl Grid {
         sidecar_origin: &str,
         sidecar: &str,
     ) -> Result<Self, TableError> {
-        let sidecar: Sidecar = toml::from_str(sidecar).map_err(|e| TableError::Malformed {
-            origin: sidecar_origin.into(),
-            reason: e.to_string().trim_end().to_owned(),
-        })?;
-        let fault =
-            |reason: String| TableError::Malformed { origin: sidecar_origin.into(), reason };
+        let fault = |reason: &str| TableError::malformed(sidecar_origin, reason);
+        let sidecar: Sidecar =
+            toml::from_str(sidecar).map_err(|e| fault(e.to_string().trim_end()))?;
         if sidecar.y.is_none() && !sidecar.axis.is_empty() {
-            return Err(fault("no [y] before [[axis]]".into()));
+            return Err(fault("no [y] before [[axis]]"));
         }
         let axes: Vec<Axis> =
             [sidecar.x].into_iter().chain(sidecar.y).chain(sidecar.axis).collect();
@@ -96,7 +93,7 @@ impl Grid {
         let (across, down) = grid.pixels();
         if (decoded.width, decoded.height) != (across, down) {
             let (w, h) = (decoded.width, decoded.height);
-            return Err(fault(format!(
+            return Err(fault(&format!(
                 "the axes have {across} × {down} texels, {origin} has {w} × {h}"
             )));
         }
@@ -126,14 +123,12 @@ impl Grid {
     /// The EXR file and the text of its sidecar.
     ///
     /// # Errors
-    /// As [`Grid::check`]; [`TableError::Malformed`] if the encoder refuses a channel name.
+    /// As [`Grid::check`]; [`TableError::Content`] if the encoder refuses a channel name.
     pub fn to_exr(&self) -> Result<(Vec<u8>, String), TableError> {
         self.check()?;
-        let fault = |reason: String| TableError::Malformed { origin: self.origin.clone(), reason };
         let channels: Vec<(&str, &[f32])> =
             self.channels.iter().map(|c| (c.name.as_str(), c.values.as_slice())).collect();
-        let (across, down) = self.pixels();
-        let pixels = encode(&self.origin, across, down, &channels)?;
+        let pixels = encode(&self.origin, self.pixels(), &channels, singles)?;
 
         let entry = |c: &GridChannel| ChannelEntry { name: c.name.clone(), unit: c.unit.clone() };
         let sidecar = Sidecar {
@@ -142,7 +137,7 @@ impl Grid {
             axis: self.axes.iter().skip(2).cloned().collect(),
             channel: self.channels.iter().map(entry).collect(),
         };
-        let text = toml::to_string(&sidecar).map_err(|e| fault(e.to_string()))?;
+        let text = toml::to_string(&sidecar).map_err(|e| TableError::malformed(&self.origin, e))?;
         Ok((pixels, text))
     }
 }
@@ -157,48 +152,33 @@ pub(crate) struct Decoded {
     pub(crate) channels: Vec<(String, Vec<f32>)>,
 }
 
-/// An EXR file of f32 channels, losslessly packed; `origin` names it in messages. The same pixels
-/// always give the same bytes.
+/// Samples of 32 bits, as they are.
+pub(crate) fn singles(values: &[f32]) -> FlatSamples {
+    FlatSamples::F32(values.to_vec())
+}
+
+/// Each value rounded to the nearest half: relative error up to 2⁻¹¹, absolute up to 2⁻²⁵ below 2⁻¹⁴,
+/// infinite from 65520 on.
+pub(crate) fn halves(values: &[f32]) -> FlatSamples {
+    FlatSamples::F16(values.iter().map(|value| f16::from_f32(*value)).collect())
+}
+
+/// An EXR file of channels, losslessly packed; `origin` names it in messages. The same pixels always
+/// give the same bytes.
 ///
 /// # Errors
-/// [`TableError::Malformed`] if the encoder refuses a name or the numbers of values.
+/// [`TableError::Content`] if the encoder refuses a name or the numbers of values.
 pub(crate) fn encode(
     origin: &str,
-    width: usize,
-    height: usize,
+    (width, height): (usize, usize),
     channels: &[(&str, &[f32])],
+    samples: fn(&[f32]) -> FlatSamples,
 ) -> Result<Vec<u8>, TableError> {
-    let samples = |values: &[f32]| FlatSamples::F32(values.to_vec());
-    encode_samples(origin, width, height, channels, samples)
-}
-
-/// As [`encode`], with each value rounded to the nearest half: relative error up to 2⁻¹¹, absolute
-/// up to 2⁻²⁵ below 2⁻¹⁴, infinite from 65520 on.
-///
-/// # Errors
-/// As [`encode`].
-pub(crate) fn encode_half(
-    origin: &str,
-    width: usize,
-    height: usize,
-    channels: &[(&str, &[f32])],
-) -> Result<Vec<u8>, TableError> {
-    let half = |values: &[f32]| values.iter().map(|value| f16::from_f32(*value)).collect();
-    encode_samples(origin, width, height, channels, |values| FlatSamples::F16(half(values)))
-}
-
-fn encode_samples(
-    origin: &str,
-    width: usize,
-    height: usize,
-    channels: &[(&str, &[f32])],
-    samples: impl Fn(&[f32]) -> FlatSamples,
-) -> Result<Vec<u8>, TableError> {
-    let fault = |reason: String| TableError::Malformed { origin: origin.into(), reason };
     let mut list = Vec::with_capacity(channels.len());
     for (name, values) in channels {
         let name = Text::new_or_none(name)
-            .ok_or_else(|| fault(format!("EXR cannot name a channel {name:?}")))?;
+            .ok_or_else(|| format!("EXR cannot name a channel {name:?}"))
+            .map_err(|reason| TableError::malformed(origin, reason))?;
         list.push(AnyChannel::new(name, samples(values)));
     }
     let layer = Layer::new(
@@ -209,19 +189,20 @@ fn encode_samples(
     );
     let mut bytes = Cursor::new(Vec::new());
     let image = Image::from_layer(layer);
-    image.write().non_parallel().to_buffered(&mut bytes).map_err(|e| fault(e.to_string()))?;
+    let written = image.write().non_parallel().to_buffered(&mut bytes);
+    written.map_err(|e| TableError::malformed(origin, e))?;
     Ok(bytes.into_inner())
 }
 
 /// Decodes after checking that the header asks for something that this crate reads and that the
 /// file can hold.
 pub(crate) fn decode(origin: &str, bytes: &[u8]) -> Result<Decoded, TableError> {
-    let fault = |reason: String| TableError::Malformed { origin: origin.into(), reason };
+    let fault = |e| TableError::malformed(origin, e);
     let attempt = || {
-        let meta = MetaData::read_from_buffered(Cursor::new(bytes), true)
-            .map_err(|e| fault(e.to_string()))?;
+        let meta = MetaData::read_from_buffered(Cursor::new(bytes), true).map_err(fault)?;
         let [header] = meta.headers.as_slice() else {
-            return Err(fault(format!("{} parts, expected one", meta.headers.len())));
+            let reason = format!("{} parts, expected one", meta.headers.len());
+            return Err(TableError::malformed(origin, reason));
         };
         check_header(origin, header, bytes.len())?;
         read()
@@ -233,11 +214,11 @@ pub(crate) fn decode(origin: &str, bytes: &[u8]) -> Result<Decoded, TableError> 
             .pedantic()
             .non_parallel()
             .from_buffered(Cursor::new(bytes))
-            .map_err(|e| fault(e.to_string()))
+            .map_err(fault)
     };
     // The decoder is not ours, and its panics on a malformed file must not become ours.
     let image = std::panic::catch_unwind(attempt)
-        .unwrap_or_else(|_| Err(fault("the decoder gave up on it".into())))?;
+        .unwrap_or_else(|_| Err(TableError::malformed(origin, "the decoder gave up on it")))?;
 
     let size = image.layer_data.size;
     let channels = image.layer_data.channel_data.list.into_iter();
@@ -251,22 +232,22 @@ pub(crate) fn decode(origin: &str, bytes: &[u8]) -> Result<Decoded, TableError> 
 }
 
 fn check_header(origin: &str, header: &Header, file_bytes: usize) -> Result<(), TableError> {
-    let fault = |reason: String| TableError::Malformed { origin: origin.into(), reason };
+    let fault = |reason: &str| Err(TableError::malformed(origin, reason));
     if header.deep {
-        return Err(fault("deep data is not read".into()));
+        return fault("deep data is not read");
     }
     if let BlockDescription::Tiles(tiles) = header.blocks
         && tiles.level_mode != LevelMode::Singular
     {
-        return Err(fault("resolution levels are not read".into()));
+        return fault("resolution levels are not read");
     }
     let mut texel_bytes = 0u128;
     for channel in &header.channels.list {
         if channel.sample_type == SampleType::U32 {
-            return Err(fault(format!("channel {:?}: integers, expected f32", channel.name)));
+            return fault(&format!("channel {:?}: integers, expected f32", channel.name));
         }
         if channel.sampling.0 != 1 || channel.sampling.1 != 1 {
-            return Err(fault(format!("channel {:?} is subsampled", channel.name)));
+            return fault(&format!("channel {:?} is subsampled", channel.name));
         }
         texel_bytes += channel.sample_type.bytes_per_sample() as u128;
     }
@@ -278,7 +259,7 @@ fn check_header(origin: &str, header: &Header, file_bytes: usize) -> Result<(), 
         (packed, "as much as a file of this size can hold"),
     ] {
         if declared > limit {
-            return Err(TableError::TooLarge { origin: origin.into(), declared, limit, why });
+            return Err(TableError::too_large(origin, declared, limit, why));
         }
     }
     Ok(())
@@ -295,20 +276,18 @@ fn match_channels(
     for entry in entries {
         units::require(&entry.unit, sidecar_origin, &entry.name)?;
         let Some(index) = decoded.iter().position(|(name, _)| *name == entry.name) else {
-            return Err(TableError::UnknownColumn {
-                origin: format!("{origin} (named by {sidecar_origin})"),
-                name: entry.name,
-                known: decoded.iter().map(|(n, _)| n.as_str()).collect::<Vec<_>>().join(", "),
-            });
+            let place = format!("{origin} (named by {sidecar_origin})");
+            let known = decoded.iter().map(|(name, _)| name.as_str());
+            return Err(TableError::unknown_column(&place, &entry.name, known));
         };
         let (name, values) = decoded.swap_remove(index);
         channels.push(GridChannel { name, unit: entry.unit, values });
     }
     match decoded.first() {
-        Some((name, _)) => Err(TableError::Malformed {
-            origin: sidecar_origin.into(),
-            reason: format!("no entry for channel {name:?} of {origin}"),
-        }),
+        Some((name, _)) => {
+            let reason = format!("no entry for channel {name:?} of {origin}");
+            Err(TableError::malformed(sidecar_origin, reason))
+        }
         None => Ok(channels),
     }
 }

@@ -80,13 +80,10 @@ impl Grid {
     /// The channel called `name`, which must be there.
     ///
     /// # Errors
-    /// [`TableError::UnknownColumn`], listing the channels that are there.
+    /// [`TableError::Content`], listing the channels that are there.
     pub fn require(&self, name: &str) -> Result<&GridChannel, TableError> {
-        self.channel(name).ok_or_else(|| TableError::UnknownColumn {
-            origin: self.origin.clone(),
-            name: name.into(),
-            known: self.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", "),
-        })
+        let known = self.channels.iter().map(|c| c.name.as_str());
+        self.channel(name).ok_or_else(|| TableError::unknown_column(&self.origin, name, known))
     }
 
     /// The value of channel `name` in a texel, one index per axis; `None` outside the grid.
@@ -145,11 +142,11 @@ impl Grid {
     /// As [`Grid::check`], for what takes two axes and no other number.
     ///
     /// # Errors
-    /// [`TableError::Dimension`] for another number of axes, and as [`Grid::check`].
+    /// [`TableError::Content`] for another number of axes, and as [`Grid::check`].
     pub fn check_plane(&self) -> Result<(), TableError> {
         if self.axes.len() != 2 {
-            let (origin, got) = (self.origin.clone(), self.axes.len());
-            return Err(TableError::Dimension { origin, expected: 2, got });
+            let reason = format!("{} axes, expected 2", self.axes.len());
+            return Err(TableError::content(&self.origin, reason));
         }
         self.check()
     }
@@ -162,11 +159,11 @@ impl Grid {
     pub fn check(&self) -> Result<(), TableError> {
         let origin = &self.origin;
         if self.axes.is_empty() {
-            return Err(TableError::Empty { origin: origin.clone(), what: "no axes" });
+            return Err(TableError::content(origin, "no axes"));
         }
         self.axes.iter().try_for_each(|axis| axis.check(origin))?;
         if self.channels.is_empty() {
-            return Err(TableError::Empty { origin: origin.clone(), what: "no channels" });
+            return Err(TableError::content(origin, "no channels"));
         }
         for (i, channel) in self.channels.iter().enumerate() {
             self.check_channel(i, channel)?;
@@ -177,16 +174,15 @@ impl Grid {
     fn check_channel(&self, i: usize, channel: &GridChannel) -> Result<(), TableError> {
         let before = self.channels.iter().take(i).map(|c| c.name.as_str());
         check_label(&self.origin, &channel.name, &channel.unit, before)?;
-        let (origin, name) = (self.origin.clone(), channel.name.clone());
         let (expected, got) = (self.texels(), channel.values.len());
         if got != expected {
-            return Err(TableError::Length { origin, column: name, expected, got });
+            return Err(TableError::length(&self.origin, &channel.name, expected, got));
         }
         match channel.values.iter().enumerate().find(|(_, v)| !v.is_finite()) {
-            Some((index, value)) => {
+            Some((index, &value)) => {
                 let texel: Vec<String> = self.texel(index).iter().map(usize::to_string).collect();
                 let row = format!("texel ({})", texel.join(", "));
-                Err(TableError::NonFinite { origin, row, column: name, got: f64::from(*value) })
+                Err(TableError::non_finite(&self.origin, &row, &channel.name, value.into()))
             }
             None => Ok(()),
         }

@@ -18,9 +18,7 @@ pub use self::axis::Axis;
 pub use self::csv::{ReadOptions, shortest_number};
 pub use self::error::TableError;
 pub use self::exr::{MAX_PIXEL_BYTES, sidecar_path};
-pub(crate) use self::exr::{
-    decode as decode_exr, encode as encode_exr, encode_half as encode_half_exr,
-};
+pub(crate) use self::exr::{decode as decode_exr, encode as encode_exr, halves, singles};
 pub use self::grid::{Edge, Grid, GridChannel, centres};
 
 /// A column of numbers.
@@ -45,7 +43,7 @@ impl Column {
     /// The values and their uncertainty in another unit of the same dimension.
     ///
     /// # Errors
-    /// [`TableError::UnknownUnit`] or [`TableError::UnitMismatch`], naming `origin`.
+    /// [`TableError::Content`] naming `origin`: a unit that is not known, or of another dimension.
     pub fn in_unit(&self, unit: &str, origin: &str) -> Result<Self, TableError> {
         let factor = units::conversion(&self.unit, unit, origin, &self.name)?;
         let scaled = |values: &[f64]| values.iter().map(|v| v * factor).collect::<Vec<_>>();
@@ -86,20 +84,16 @@ impl Table {
     /// The column called `name`, which must be there.
     ///
     /// # Errors
-    /// [`TableError::UnknownColumn`], listing the columns that are there.
+    /// [`TableError::Content`], listing the columns that are there.
     pub fn require(&self, name: &str) -> Result<&Column, TableError> {
-        self.column(name).ok_or_else(|| TableError::UnknownColumn {
-            origin: self.origin.clone(),
-            name: name.into(),
-            known: self.names().join(", "),
-        })
+        let unknown = || TableError::unknown_column(&self.origin, name, self.names());
+        self.column(name).ok_or_else(unknown)
     }
 
     /// The values of the column called `name`, in `unit`.
     ///
     /// # Errors
-    /// [`TableError::UnknownColumn`] if it is not there, [`TableError::UnitMismatch`] if its unit
-    /// does not convert into `unit`.
+    /// [`TableError::Content`] if it is not there, or its unit does not convert into `unit`.
     pub fn values_in(&self, name: &str, unit: &str) -> Result<Vec<f64>, TableError> {
         Ok(self.require(name)?.in_unit(unit, &self.origin)?.values)
     }
@@ -111,7 +105,7 @@ impl Table {
     /// The first rule that is broken.
     pub fn check(&self) -> Result<(), TableError> {
         if self.columns.is_empty() {
-            return Err(TableError::Empty { origin: self.origin.clone(), what: "no columns" });
+            return Err(TableError::content(&self.origin, "no columns"));
         }
         for (i, column) in self.columns.iter().enumerate() {
             self.check_column(i, column)?;
@@ -123,24 +117,18 @@ impl Table {
         let origin = &self.origin;
         let before = self.columns.iter().take(i).map(|c| c.name.as_str());
         check_label(origin, &column.name, &column.unit, before)?;
-        let length = |name: String, got: usize| {
-            let expected = self.rows();
-            if got == expected {
-                return Ok(());
-            }
-            Err(TableError::Length { origin: origin.clone(), column: name, expected, got })
+        let length = |name: &str, got: usize| match self.rows() {
+            expected if got == expected => Ok(()),
+            expected => Err(TableError::length(origin, name, expected, got)),
         };
-        length(column.name.clone(), column.values.len())?;
+        length(&column.name, column.values.len())?;
         let Some(uncertainty) = &column.uncertainty else { return Ok(()) };
-        length(format!("u({})", column.name), uncertainty.len())?;
+        length(&format!("u({})", column.name), uncertainty.len())?;
         match uncertainty.iter().position(|u| *u < 0.0) {
-            Some(row) => Err(TableError::NegativeUncertainty {
-                origin: origin.clone(),
-                line: row as u64 + 2,
-                row: row + 1,
-                column: column.name.clone(),
-                got: uncertainty[row],
-            }),
+            Some(row) => {
+                let (place, got) = (format!("{origin}:{}", row + 2), uncertainty[row]);
+                Err(TableError::negative(place, row + 1, &column.name, got))
+            }
             None => Ok(()),
         }
     }
@@ -155,17 +143,10 @@ fn check_label<'a>(
     before: impl ExactSizeIterator<Item = &'a str>,
 ) -> Result<(), TableError> {
     if let Some(reason) = csv::name_fault(name) {
-        return Err(TableError::Header {
-            origin: origin.into(),
-            line: 1,
-            position: before.len() + 1,
-            header: name.into(),
-            reason,
-        });
+        return Err(csv::header_error(origin, 1, before.len() + 1, name, reason));
     }
     if before.into_iter().any(|other| other == name) {
-        let (origin, name) = (origin.into(), name.into());
-        return Err(TableError::DuplicateColumn { origin, line: 1, name });
+        return Err(csv::duplicate_error(origin, 1, name));
     }
     units::require(unit, origin, name)?;
     Ok(())

@@ -91,9 +91,8 @@ impl Provenance {
     /// # Errors
     /// As [`Provenance::read`].
     pub fn parse(origin: &str, text: &str) -> Result<Self, TableError> {
-        let fault = |reason: String| TableError::Malformed { origin: origin.into(), reason };
-        let provenance: Self =
-            toml::from_str(text).map_err(|e| fault(e.to_string().trim_end().to_owned()))?;
+        let fault = |reason: &str| TableError::malformed(origin, reason);
+        let provenance: Self = toml::from_str(text).map_err(|e| fault(e.to_string().trim_end()))?;
         for file in &provenance.files {
             let m = provenance.measurement_of(file);
             let missing = [
@@ -105,7 +104,7 @@ impl Provenance {
             .into_iter()
             .find(|(_, value)| value.as_ref().is_none_or(|v| v.trim().is_empty()));
             if let Some((field, _)) = missing {
-                return Err(fault(format!("file {:?}: no {field}", file.name)));
+                return Err(fault(&format!("file {:?}: no {field}", file.name)));
             }
         }
         Ok(provenance)
@@ -123,45 +122,39 @@ impl Provenance {
         }
     }
 
-    /// The entry of the file called `name`.
-    pub fn file(&self, name: &str) -> Option<&SourceFile> {
-        self.files.iter().find(|f| f.name == name)
-    }
-
     /// Compares the record with the folder: every file but `SOURCE.toml` is listed once with the
     /// right SHA-256, and nothing is listed that is not there.
     ///
     /// # Errors
-    /// [`TableError::Provenance`] for the first disagreement, [`TableError::Unreadable`] for a file
-    /// that cannot be read.
+    /// [`TableError::Content`] for the first disagreement, [`TableError::Unreadable`] for a file that
+    /// cannot be read.
     pub fn verify(&self, folder: impl AsRef<Path>) -> Result<(), TableError> {
         let folder = folder.as_ref();
-        let fault = |name: &str, reason: String| TableError::Provenance {
-            folder: folder.into(),
-            name: name.into(),
-            reason,
+        let fault = |name: &str, reason: &str| {
+            let place = folder.display().to_string();
+            Err(TableError::content(place, format!("{name}: {reason}")))
         };
         let mut listed = BTreeSet::new();
         for file in &self.files {
             if !listed.insert(file.name.as_str()) {
-                return Err(fault(&file.name, "listed twice".into()));
+                return fault(&file.name, "listed twice");
             }
             if file.name.contains(['/', '\\']) {
-                return Err(fault(&file.name, "not a file of this folder".into()));
+                return fault(&file.name, "not a file of this folder");
             }
             let path = folder.join(&file.name);
             if !path.is_file() {
-                return Err(fault(&file.name, "listed in SOURCE.toml but not there".into()));
+                return fault(&file.name, "listed in SOURCE.toml but not there");
             }
             let got = store::sha256_hex(&store::read(&path)?);
             if got != file.sha256 {
                 let expected = &file.sha256;
-                return Err(fault(&file.name, format!("sha256 is {got}, expected {expected}")));
+                return fault(&file.name, &format!("sha256 is {got}, expected {expected}"));
             }
         }
         for name in names_in(folder)? {
             if name != FILE_NAME && !listed.contains(name.as_str()) {
-                return Err(fault(&name, "not listed in SOURCE.toml".into()));
+                return fault(&name, "not listed in SOURCE.toml");
             }
         }
         Ok(())

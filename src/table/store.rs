@@ -69,14 +69,12 @@ pub fn origin(path: &Path, bytes: &[u8]) -> String {
 /// `bytes` as text.
 ///
 /// # Errors
-/// [`TableError::NotText`] with the line of the first byte that is not UTF-8.
+/// [`TableError::Content`] with the line of the first byte that is not UTF-8.
 pub fn text<'a>(origin: &str, bytes: &'a [u8]) -> Result<&'a str, TableError> {
     std::str::from_utf8(bytes).map_err(|e| {
-        let good = bytes.get(..e.valid_up_to()).unwrap_or(bytes);
-        TableError::NotText {
-            origin: origin.into(),
-            line: good.iter().filter(|b| **b == b'\n').count() + 1,
-            byte: e.valid_up_to(),
-        }
+        let byte = e.valid_up_to();
+        let line = bytes[..byte].iter().filter(|b| **b == b'\n').count() + 1;
+        let reason = format!("not UTF-8 text (byte {byte} of the file)");
+        TableError::content(format!("{origin}:{line}"), reason)
     })
 }

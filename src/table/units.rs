@@ -57,43 +57,30 @@ pub const KNOWN: &[Unit] = &[
     unit("ulp", "units in the last place", 0),
 ];
 
-/// The unit written `symbol`, if it is known.
-pub fn find(symbol: &str) -> Option<&'static Unit> {
-    KNOWN.iter().find(|u| u.symbol == symbol)
-}
-
-/// All known symbols, separated by commas, for messages.
-pub fn known_symbols() -> String {
-    KNOWN.iter().map(|u| u.symbol).collect::<Vec<_>>().join(", ")
-}
-
 /// The unit written `symbol`.
 ///
 /// # Errors
-/// [`TableError::UnknownUnit`] naming `origin`, `column` and the known units.
+/// [`TableError::Content`] naming `origin`, `column` and the known units.
 pub fn require(symbol: &str, origin: &str, column: &str) -> Result<&'static Unit, TableError> {
-    find(symbol).ok_or_else(|| TableError::UnknownUnit {
-        origin: origin.into(),
-        column: column.into(),
-        unit: symbol.into(),
-        known: known_symbols(),
+    KNOWN.iter().find(|unit| unit.symbol == symbol).ok_or_else(|| {
+        let known = KNOWN.iter().map(|unit| unit.symbol).collect::<Vec<_>>().join(", ");
+        let reason = format!("column {column:?}: unknown unit {symbol:?}; known units: {known}");
+        TableError::content(origin, reason)
     })
 }
 
 /// What a value in `from` is multiplied by to be in `to`; exactly 1 for equal units.
 ///
 /// # Errors
-/// [`TableError::UnknownUnit`] for a symbol that is not known, [`TableError::UnitMismatch`] where
-/// the dimensions differ.
+/// [`TableError::Content`] for a symbol that is not known, or where the dimensions differ.
 pub fn conversion(from: &str, to: &str, origin: &str, column: &str) -> Result<f64, TableError> {
     let (a, b) = (require(from, origin, column)?, require(to, origin, column)?);
     if a.dimension != b.dimension {
-        return Err(TableError::UnitMismatch {
-            origin: origin.into(),
-            column: column.into(),
-            expected: format!("{} (such as {:?})", b.dimension, b.symbol),
-            got: from.into(),
-        });
+        let (expected, example) = (b.dimension, b.symbol);
+        let reason = format!(
+            "column {column:?}: expected a unit of {expected} (such as {example:?}), got {from:?}"
+        );
+        return Err(TableError::content(origin, reason));
     }
     // Apart from the power of ten, so that nm to m is exactly the nearest number to 1e-9.
     let shift = a.exponent - b.exponent;

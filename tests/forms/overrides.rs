@@ -1,5 +1,7 @@
 //! Which overrides are parameters, and how derived ones follow them.
 
+use striae::form::lanes::Evaluator;
+
 use crate::form;
 
 #[test]
@@ -33,7 +35,7 @@ fn defaults_are_the_f32_of_the_text() {
 #[test]
 fn the_same_function_twice_with_different_evaluators() {
     let form = form("override a: f32; fn f(x: f32) -> f32 { return a * x; }");
-    let mut evaluator = form.evaluator_f64();
+    let mut evaluator = Evaluator::<f64>::new(&form);
     let mut values = Vec::new();
     let xs: Vec<f64> = (0..1000).map(f64::from).collect();
     for (a, count) in [(2.0, 1000), (3.0, 7), (4.0, 129)] {

@@ -25,7 +25,8 @@ const COLOURS: [[f32; 3]; 4] =
 fn tables() -> Vec<DataTable> {
     vec![
         DataTable::vectors("colours", &COLOURS),
-        DataTable::f16_pairs("packed", &[1.5, -2.0, 65504.0, 0.1, 1.0e-7]),
+        // Pairs of f16: 1.5 and -2, 65504 and 0.1, 1e-7 and 0.
+        DataTable::unsigned("packed", [0xc000_3e00, 0x2e66_7bff, 0x0000_0002]),
         DataTable::signed("shift", &[i32::MAX, i32::MIN, -4]),
     ]
 }

@@ -1,13 +1,15 @@
 //! Variables, indexing and constants.
 
-use naga::{AddressSpace, Arena, Expression, Handle, TypeInner};
+use naga::{
+    AddressSpace, Arena, BinaryOperator, Expression, Handle, MathFunction, ScalarKind, TypeInner,
+};
 
 use super::Compiler;
 use super::body::Frame;
 use super::value::{Place, Scalar, Value};
 use crate::form::FormError;
-use crate::form::operation::I2;
-use crate::form::program::{Instr, Kind, Reg, Slot};
+use crate::form::operation::Op;
+use crate::form::program::{Instr, Kind, Reg};
 
 impl<'m> Compiler<'m> {
     /// The scalars of a module-scope constant expression; `None` if it depends on an override.
@@ -82,21 +84,27 @@ impl<'m> Compiler<'m> {
         }
         if !self.globals.contains_key(&handle) {
             let kinds = self.kinds_of(variable.ty)?;
-            let regs: Vec<Reg> = kinds.iter().map(|&kind| self.new_reg(kind)).collect();
-            let initial = match variable.init {
-                Some(init) => {
-                    let mut frame = Frame::global(self.module);
-                    let value = self.value(&mut frame, init)?;
-                    self.regs(value)?
-                }
-                None => kinds.iter().map(|&kind| self.scalar(Scalar::zero(kind))).collect(),
-            };
-            let stores = regs.iter().zip(&initial).map(|(&to, &from)| Instr::Store { to, from });
-            self.initial.extend(stores);
+            let mut frame = Frame::global(self.module);
+            let (regs, initial) = self.variable(&mut frame, &kinds, variable.init)?;
+            self.initial.extend(stores(&regs, &initial));
             self.globals.insert(handle, regs);
         }
-        let regs = self.globals[&handle].clone();
-        Ok(Value::Place(Place { count: regs.len(), regs, offset: 0, index: None }))
+        Ok(Value::Place(Place::whole(self.globals[&handle].clone())))
+    }
+
+    /// New registers of a variable, and those of its initial value.
+    pub(super) fn variable(
+        &mut self,
+        frame: &mut Frame<'m>,
+        kinds: &[Kind],
+        init: Option<Handle<Expression>>,
+    ) -> Result<(Vec<Reg>, Vec<Reg>), FormError> {
+        let regs = kinds.iter().map(|&kind| self.new_reg(kind)).collect();
+        let initial = match init {
+            Some(init) => self.regs_of(frame, init)?,
+            None => self.scalars(kinds.iter().copied().map(Scalar::zero)),
+        };
+        Ok((regs, initial))
     }
 
     /// The table of a storage buffer whose numbers are given beside the text.
@@ -110,18 +118,19 @@ impl<'m> Compiler<'m> {
     }
 
     /// The value of a variable now.
-    pub(super) fn load(&mut self, place: &Place) -> Result<Value, FormError> {
+    pub(super) fn load(&mut self, place: &Place) -> Result<Vec<Reg>, FormError> {
         let mut loaded = Vec::with_capacity(place.count);
         for component in place.offset..place.offset + place.count {
-            let from = place.regs[component];
-            let to = self.new_reg(kind_of(from));
+            let to = self.new_reg(place.regs[component].kind);
             self.push(match place.index {
-                None => Instr::Move { to, from },
-                Some(index) => Instr::Gather { to, from: place.regs[component..].into(), index },
+                None => Instr::Move { to, from: place.regs[component].slot },
+                Some(index) => {
+                    Instr::Gather { to, from: place.slots(component), index: index.slot }
+                }
             })?;
             loaded.push(to);
         }
-        Ok(Value::Regs(loaded))
+        Ok(loaded)
     }
 
     /// `base[index]` with an index known at compile time.
@@ -135,19 +144,15 @@ impl<'m> Compiler<'m> {
             let index = self.integer(index as u32);
             return self.access(inner, base, index);
         }
-        let inner = self.pointee(inner).into_owned();
+        let inner = self.pointee(inner);
         let (at, length) = self.element(&inner, index)?;
         Ok(match base {
             Value::Regs(regs) => Value::Regs(regs[at..at + length].to_vec()),
             Value::Array(scalars) => {
-                let element = match inner {
-                    TypeInner::Array { base, .. } => Some(base),
-                    _ => None,
-                };
                 let scalars = scalars[at..at + length].to_vec();
-                match element {
-                    Some(ty) if self.is_array(ty) => Value::Array(scalars),
-                    _ => Value::Regs(scalars.into_iter().map(|s| self.scalar(s)).collect()),
+                match inner {
+                    TypeInner::Array { base, .. } if self.is_array(base) => Value::Array(scalars),
+                    _ => Value::Regs(self.scalars(scalars)),
                 }
             }
             Value::Row { table, kind, index, offset, .. } => {
@@ -170,53 +175,51 @@ impl<'m> Compiler<'m> {
         &mut self,
         inner: &TypeInner,
         base: Value,
-        index: Slot,
+        index: Reg,
     ) -> Result<Value, FormError> {
-        let inner = self.pointee(inner).into_owned();
+        let inner = self.pointee(inner);
         let (stride, length) = match base {
             Value::Table { length, count, .. } => (count as usize, length as usize),
             _ => self.stride(&inner)?,
         };
         let last = self.integer((length as u32).saturating_sub(1));
-        let mut at = self.integer2(I2::MinUnsigned, index, last)?;
+        let mut at = self.op(Op::Math(MathFunction::Min, ScalarKind::Uint), &[index, last])?;
         if stride != 1 {
             let stride = self.integer(stride as u32);
-            at = self.integer2(I2::Mul, at, stride)?;
+            at = self.op(Op::Binary(BinaryOperator::Multiply, ScalarKind::Uint), &[at, stride])?;
         }
-        match base {
+        let (count, sum) = (stride as u32, Op::Binary(BinaryOperator::Add, ScalarKind::Uint));
+        Ok(match base {
             Value::Regs(regs) => {
                 let place = Place { regs, offset: 0, count: stride, index: Some(at) };
                 self.one_kind(&place.regs)?;
-                self.load(&place)
+                Value::Regs(self.load(&place)?)
             }
             Value::Array(scalars) => {
-                let Some((table, kind)) = self.table(&scalars) else {
-                    return Err(self.mixed());
-                };
-                Ok(Value::Row { table, kind, index: at, offset: 0, count: stride as u32 })
+                let (table, kind) = self.table(&scalars).ok_or_else(|| self.mixed())?;
+                Value::Row { table, kind, index: at, offset: 0, count }
             }
             Value::Row { table, kind, index, offset, .. } => {
-                let index = self.integer2(I2::Add, index, at)?;
-                Ok(Value::Row { table, kind, index, offset, count: stride as u32 })
+                let index = self.op(sum, &[index, at])?;
+                Value::Row { table, kind, index, offset, count }
             }
             Value::Place(place) => {
                 self.one_kind(&place.regs)?;
                 let index = match place.index {
-                    Some(index) => self.integer2(I2::Add, index, at)?,
+                    Some(index) => self.op(sum, &[index, at])?,
                     None => at,
                 };
-                Ok(Value::Place(Place { count: stride, index: Some(index), ..place }))
+                Value::Place(Place { count: stride, index: Some(index), ..place })
             }
             Value::Table { table, kind, count, .. } => {
-                Ok(Value::Row { table, kind, index: at, offset: 0, count })
+                Value::Row { table, kind, index: at, offset: 0, count }
             }
-        }
+        })
     }
 
     fn one_kind(&self, regs: &[Reg]) -> Result<(), FormError> {
-        let mut kinds = regs.iter().map(|&reg| kind_of(reg));
-        let first = kinds.next();
-        if kinds.all(|kind| Some(kind) == first) { Ok(()) } else { Err(self.mixed()) }
+        let mixed = regs.windows(2).any(|pair| pair[0].kind != pair[1].kind);
+        if mixed { Err(self.mixed()) } else { Ok(()) }
     }
 
     fn mixed(&self) -> FormError {
@@ -224,21 +227,19 @@ impl<'m> Compiler<'m> {
     }
 }
 
-pub(super) fn kind_of(reg: Reg) -> Kind {
-    match reg {
-        Reg::F(_) => Kind::F,
-        Reg::I(_) => Kind::I,
-        Reg::B(_) => Kind::B,
-    }
+/// Copies of registers for the active lanes.
+pub(super) fn stores(to: &[Reg], from: &[Reg]) -> impl Iterator<Item = Instr> {
+    to.iter().zip(from).map(|(&to, from)| Instr::Store { to, from: from.slot })
 }
 
 /// `None` for literals of types that forms do not have.
 pub(super) fn scalar_of(literal: naga::Literal) -> Option<Scalar> {
-    match literal {
-        naga::Literal::F32(value) => Some(Scalar::F(value.to_bits())),
-        naga::Literal::I32(value) => Some(Scalar::I(value as u32)),
-        naga::Literal::U32(value) => Some(Scalar::I(value)),
-        naga::Literal::Bool(value) => Some(Scalar::B(value)),
-        _ => None,
-    }
+    let (kind, bits) = match literal {
+        naga::Literal::F32(value) => (Kind::F, value.to_bits()),
+        naga::Literal::I32(value) => (Kind::I, value as u32),
+        naga::Literal::U32(value) => (Kind::I, value),
+        naga::Literal::Bool(value) => (Kind::B, value.into()),
+        _ => return None,
+    };
+    Some(Scalar { kind, bits })
 }

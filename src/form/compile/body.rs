@@ -5,10 +5,11 @@ use naga::{
     valid::FunctionInfo,
 };
 
-use super::value::{Place, Scalar, Value};
+use super::access::stores;
+use super::value::{Place, Value};
 use super::{Compiler, MAX_NESTING};
 use crate::form::FormError;
-use crate::form::program::{self, Case, Instr, Node, Reg};
+use crate::form::program::{self, Case, Instr, Kind, Node, Reg, Slot};
 
 /// One activation of a function, or the module scope.
 pub(super) struct Frame<'m> {
@@ -31,17 +32,21 @@ struct Target {
 }
 
 impl<'m> Frame<'m> {
-    /// The module scope.
-    pub(super) fn global(module: &'m Module) -> Self {
+    fn new(expressions: &'m Arena<Expression>, info: Option<&'m FunctionInfo>) -> Self {
         Self {
-            expressions: &module.global_expressions,
-            info: None,
-            values: vec![None; module.global_expressions.len()],
+            expressions,
+            info,
+            values: vec![None; expressions.len()],
             arguments: Vec::new(),
             locals: Vec::new(),
             results: Vec::new(),
             targets: Vec::new(),
         }
+    }
+
+    /// The module scope.
+    pub(super) fn global(module: &'m Module) -> Self {
+        Self::new(&module.global_expressions, None)
     }
 }
 
@@ -61,15 +66,8 @@ impl<'m> Compiler<'m> {
             }
             None => Vec::new(),
         };
-        let mut frame = Frame {
-            expressions: &function.expressions,
-            info: Some(&self.info[handle]),
-            values: vec![None; function.expressions.len()],
-            arguments,
-            locals: Vec::new(),
-            results,
-            targets: Vec::new(),
-        };
+        let scope = Frame::new(&function.expressions, Some(&self.info[handle]));
+        let mut frame = Frame { arguments, results, ..scope };
         self.open_block()?;
         for (local, variable) in function.local_variables.iter() {
             self.here = function.local_variables.get_span(local);
@@ -81,16 +79,9 @@ impl<'m> Compiler<'m> {
                 );
                 return Err(self.too_large(self.here, what));
             }
-            let regs: Vec<Reg> = kinds.iter().map(|&kind| self.new_reg(kind)).collect();
-            let initial = match variable.init {
-                Some(init) => {
-                    let value = self.value(&mut frame, init)?;
-                    self.regs(value)?
-                }
-                None => kinds.iter().map(|&kind| self.scalar(Scalar::zero(kind))).collect(),
-            };
-            frame.locals.push(regs.clone());
+            let (regs, initial) = self.variable(&mut frame, &kinds, variable.init)?;
             self.store_all(&regs, &initial)?;
+            frame.locals.push(regs);
         }
         self.block(&mut frame, &function.body)?;
         let body = self.close_block();
@@ -100,10 +91,7 @@ impl<'m> Compiler<'m> {
     }
 
     fn store_all(&mut self, to: &[Reg], from: &[Reg]) -> Result<(), FormError> {
-        for (&to, &from) in to.iter().zip(from) {
-            self.push(Instr::Store { to, from })?;
-        }
-        Ok(())
+        stores(to, from).try_for_each(|store| self.push(store))
     }
 
     fn open_block(&mut self) -> Result<(), FormError> {
@@ -154,16 +142,13 @@ impl<'m> Compiler<'m> {
             }
             Statement::Block(inner) => self.block(frame, inner)?,
             Statement::If { condition, accept, reject } => {
-                let when = self.condition(frame, *condition)?;
+                let when = self.scalar_of_kind(frame, *condition, Kind::B)?;
                 let accept = self.inner_block(frame, accept)?;
                 let reject = self.inner_block(frame, reject)?;
                 self.push_node(Node::If { when, accept, reject });
             }
             Statement::Switch { selector, cases } => {
-                let value = self.value(frame, *selector)?;
-                let &[Reg::I(selector)] = self.regs(value)?.as_slice() else {
-                    return Err(self.unsupported(span, "this switch selector"));
-                };
+                let selector = self.scalar_of_kind(frame, *selector, Kind::I)?;
                 let exits = self.new_mask();
                 frame.targets.push(Target { exits, continues: None });
                 let mut compiled = Vec::with_capacity(cases.len());
@@ -186,10 +171,9 @@ impl<'m> Compiler<'m> {
                 let body = self.inner_block(frame, body)?;
                 self.open_block()?;
                 self.block(frame, continuing)?;
-                let break_if = match *break_if {
-                    Some(condition) => Some(self.condition(frame, condition)?),
-                    None => None,
-                };
+                let break_if = break_if
+                    .map(|condition| self.scalar_of_kind(frame, condition, Kind::B))
+                    .transpose()?;
                 let continuing = self.close_block();
                 frame.targets.pop();
                 self.push_node(Node::Loop { body, continuing, break_if, exits, continues, line });
@@ -206,8 +190,7 @@ impl<'m> Compiler<'m> {
             }
             Statement::Return { value } => {
                 if let Some(value) = *value {
-                    let value = self.value(frame, value)?;
-                    let regs = self.regs(value)?;
+                    let regs = self.regs_of(frame, value)?;
                     let results = std::mem::take(&mut frame.results);
                     self.store_all(&results, &regs)?;
                     frame.results = results;
@@ -215,8 +198,7 @@ impl<'m> Compiler<'m> {
                 self.push_node(Node::Return);
             }
             Statement::Store { pointer, value } => {
-                let value = self.value(frame, *value)?;
-                let regs = self.regs(value)?;
+                let regs = self.regs_of(frame, *value)?;
                 match self.value(frame, *pointer)? {
                     Value::Place(place) => self.store(&place, &regs)?,
                     _ => return Err(self.unsupported(span, "this assignment")),
@@ -243,15 +225,16 @@ impl<'m> Compiler<'m> {
         Ok(())
     }
 
-    fn condition(
+    /// The register of a condition or a selector.
+    fn scalar_of_kind(
         &mut self,
         frame: &mut Frame<'m>,
-        condition: Handle<Expression>,
-    ) -> Result<u32, FormError> {
-        let value = self.value(frame, condition)?;
-        match self.regs(value)?.as_slice() {
-            &[Reg::B(when)] => Ok(when),
-            _ => Err(self.unsupported(self.here, "this condition")),
+        expression: Handle<Expression>,
+        kind: Kind,
+    ) -> Result<Slot, FormError> {
+        match self.regs_of(frame, expression)?.as_slice() {
+            &[reg] if reg.kind == kind => Ok(reg.slot),
+            _ => Err(self.unsupported(self.here, "a condition of this type")),
         }
     }
 
@@ -261,8 +244,8 @@ impl<'m> Compiler<'m> {
             return self.store_all(to, from);
         };
         for (component, &from) in from.iter().enumerate() {
-            let to = place.regs[place.offset + component..].into();
-            self.push(Instr::Scatter { to, index, from })?;
+            let to = place.slots(place.offset + component);
+            self.push(Instr::Scatter { to, index: index.slot, from })?;
         }
         Ok(())
     }

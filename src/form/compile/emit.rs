@@ -2,21 +2,19 @@
 
 use std::sync::Arc;
 
+use naga::{BinaryOperator, MathFunction, ScalarKind};
+
 use super::value::{Scalar, Value};
 use super::{Compiler, MAX_INSTRUCTIONS};
 use crate::form::FormError;
-use crate::form::operation::{B2, Compare, F1, F2, I1, I2};
-use crate::form::program::{Instr, Kind, Node, Reg, Slot};
+use crate::form::operation::{Class, Op};
+use crate::form::program::{Instr, Kind, Node, Reg};
 
 impl Compiler<'_> {
     pub(super) fn new_reg(&mut self, kind: Kind) -> Reg {
-        let (count, make): (&mut u32, fn(Slot) -> Reg) = match kind {
-            Kind::F => (&mut self.program.floats, Reg::F),
-            Kind::I => (&mut self.program.integers, Reg::I),
-            Kind::B => (&mut self.program.booleans, Reg::B),
-        };
+        let count = &mut self.program.registers[kind as usize];
         *count += 1;
-        make(*count - 1)
+        kind.reg(*count - 1)
     }
 
     pub(super) fn new_mask(&mut self) -> u32 {
@@ -24,55 +22,34 @@ impl Compiler<'_> {
         self.program.masks - 1
     }
 
-    pub(super) fn mark_uniform(&mut self, reg: Reg) {
-        self.uniform.insert(reg);
-    }
-
-    pub(super) fn float(&mut self, value: f32) -> Slot {
-        let (bits, next) = (value.to_bits(), self.program.floats);
-        let slot = *self.floats.entry(bits).or_insert(next);
-        if slot == next {
-            self.program.floats += 1;
-            self.program.float_constants.push((slot, value));
-            self.mark_uniform(Reg::F(slot));
-        }
-        slot
-    }
-
-    pub(super) fn integer(&mut self, value: u32) -> Slot {
-        let next = self.program.integers;
-        let slot = *self.integers.entry(value).or_insert(next);
-        if slot == next {
-            self.program.integers += 1;
-            self.program.integer_constants.push((slot, value));
-            self.mark_uniform(Reg::I(slot));
-        }
-        slot
-    }
-
-    fn boolean(&mut self, value: bool) -> Slot {
-        let next = self.program.booleans;
-        let slot = *self.booleans.entry(value).or_insert(next);
-        if slot == next {
-            self.program.booleans += 1;
-            self.program.boolean_constants.push((slot, value));
-            self.mark_uniform(Reg::B(slot));
-        }
-        slot
-    }
-
+    /// The register of a constant.
     pub(super) fn scalar(&mut self, scalar: Scalar) -> Reg {
-        match scalar {
-            Scalar::F(bits) => Reg::F(self.float(f32::from_bits(bits))),
-            Scalar::I(bits) => Reg::I(self.integer(bits)),
-            Scalar::B(value) => Reg::B(self.boolean(value)),
+        if let Some(&reg) = self.constants.get(&scalar) {
+            return reg;
         }
+        let reg = self.new_reg(scalar.kind);
+        self.constants.insert(scalar, reg);
+        self.program.constants.push((reg, scalar.bits));
+        self.uniform.insert(reg);
+        reg
+    }
+
+    pub(super) fn scalars(&mut self, scalars: impl IntoIterator<Item = Scalar>) -> Vec<Reg> {
+        scalars.into_iter().map(|scalar| self.scalar(scalar)).collect()
+    }
+
+    pub(super) fn float(&mut self, value: f32) -> Reg {
+        self.scalar(Scalar { kind: Kind::F, bits: value.to_bits() })
+    }
+
+    pub(super) fn integer(&mut self, value: u32) -> Reg {
+        self.scalar(Scalar { kind: Kind::I, bits: value })
     }
 
     /// The table of a constant array; `None` if its scalars are of several kinds.
     pub(super) fn table(&mut self, scalars: &[Scalar]) -> Option<(u32, Kind)> {
-        let (kind, _) = scalars.first()?.parts();
-        let word = |scalar: &Scalar| Some(scalar.parts()).filter(|p| p.0 == kind).map(|p| p.1);
+        let kind = scalars.first()?.kind;
+        let word = |scalar: &Scalar| (scalar.kind == kind).then_some(scalar.bits);
         let words: Arc<[u32]> = scalars.iter().map(word).collect::<Option<_>>()?;
         let next = self.program.tables.len() as u32;
         let table = *self.tables.entry((kind, Arc::clone(&words))).or_insert(next);
@@ -86,13 +63,11 @@ impl Compiler<'_> {
     pub(super) fn regs(&mut self, value: Value) -> Result<Vec<Reg>, FormError> {
         match value {
             Value::Regs(regs) => Ok(regs),
-            Value::Array(scalars) => {
-                Ok(scalars.into_iter().map(|scalar| self.scalar(scalar)).collect())
-            }
+            Value::Array(scalars) => Ok(self.scalars(scalars)),
             Value::Row { table, kind, index, offset, count } => (offset..offset + count)
                 .map(|offset| {
                     let to = self.new_reg(kind);
-                    self.push(Instr::Table { to, table, index, offset })?;
+                    self.push(Instr::Table { to, table, index: index.slot, offset })?;
                     Ok(to)
                 })
                 .collect(),
@@ -121,7 +96,7 @@ impl Compiler<'_> {
         let mut written = None;
         instr.visit(|reg| uniform &= self.uniform.contains(&reg), |reg| written = Some(reg));
         if let (true, Some(reg)) = (uniform, written) {
-            self.mark_uniform(reg);
+            self.uniform.insert(reg);
             self.program.prologue.push(instr);
             return Ok(());
         }
@@ -136,65 +111,58 @@ impl Compiler<'_> {
         Ok(())
     }
 
-    pub(super) fn float1(&mut self, op: F1, a: Slot) -> Result<Slot, FormError> {
-        let to = self.program.floats;
-        self.program.floats += 1;
-        self.push(Instr::F1 { op, to, a })?;
+    /// The result of an operation.
+    pub(super) fn op(&mut self, op: Op, arguments: &[Reg]) -> Result<Reg, FormError> {
+        let mut from = [arguments[0]; 4];
+        from[..arguments.len()].copy_from_slice(arguments);
+        let to = self.new_reg(op.result());
+        self.push(Instr::Compute { op, to, from })?;
         Ok(to)
     }
 
-    pub(super) fn float2(&mut self, op: F2, a: Slot, b: Slot) -> Result<Slot, FormError> {
-        let to = self.program.floats;
-        self.program.floats += 1;
-        self.push(Instr::F2 { op, to, a, b })?;
-        Ok(to)
+    /// `when ? yes : no`, of three registers.
+    pub(super) fn select(&mut self, arguments: &[Reg]) -> Result<Reg, FormError> {
+        match *arguments {
+            [when, yes, no] if when.kind == Kind::B && yes.kind == no.kind => {
+                let to = self.new_reg(yes.kind);
+                self.push(Instr::Select { to, when: when.slot, yes: yes.slot, no: no.slot })?;
+                Ok(to)
+            }
+            _ => Err(self.unsupported(self.here, "a choice between values of these types")),
+        }
     }
 
-    pub(super) fn integer1(&mut self, op: I1, a: Slot) -> Result<Slot, FormError> {
-        let to = self.program.integers;
-        self.program.integers += 1;
-        self.push(Instr::I1 { op, to, a })?;
-        Ok(to)
+    /// Applies `f` component by component; a scalar goes with every component of a vector.
+    pub(super) fn each(
+        &mut self,
+        arguments: &[impl AsRef<[Reg]>],
+        mut f: impl FnMut(&mut Self, &[Reg]) -> Result<Reg, FormError>,
+    ) -> Result<Vec<Reg>, FormError> {
+        let count = arguments.iter().map(|regs| regs.as_ref().len()).max().unwrap_or(0);
+        let component = |regs: &[Reg], at: usize| regs.get(at).or(regs.first()).copied();
+        let mut results = Vec::with_capacity(count);
+        for at in 0..count {
+            let regs = arguments.iter().filter_map(|regs| component(regs.as_ref(), at));
+            results.push(f(self, &regs.collect::<Vec<_>>())?);
+        }
+        Ok(results)
     }
 
-    pub(super) fn integer2(&mut self, op: I2, a: Slot, b: Slot) -> Result<Slot, FormError> {
-        let to = self.program.integers;
-        self.program.integers += 1;
-        self.push(Instr::I2 { op, to, a, b })?;
-        Ok(to)
-    }
-
-    pub(super) fn boolean2(&mut self, op: B2, a: Slot, b: Slot) -> Result<Slot, FormError> {
-        let to = self.program.booleans;
-        self.program.booleans += 1;
-        self.push(Instr::B2 { op, to, a, b })?;
-        Ok(to)
-    }
-
-    pub(super) fn compare(&mut self, op: Compare, a: Slot, b: Slot) -> Result<Slot, FormError> {
-        let to = self.program.booleans;
-        self.program.booleans += 1;
-        self.push(Instr::CompareF { op, to, a, b })?;
-        Ok(to)
-    }
-
-    pub(super) fn select(&mut self, when: Slot, yes: Reg, no: Reg) -> Result<Reg, FormError> {
-        let to = self.new_reg(match yes {
-            Reg::F(_) => Kind::F,
-            Reg::I(_) => Kind::I,
-            Reg::B(_) => Kind::B,
-        });
-        self.push(Instr::Select { to, when, yes, no })?;
-        Ok(to)
+    /// `op` between all of `regs`, from the first to the last.
+    pub(super) fn fold(&mut self, op: Op, regs: &[Reg]) -> Result<Reg, FormError> {
+        match regs {
+            [] => Err(self.unsupported(self.here, "a value without components")),
+            &[first, ref rest @ ..] => rest.iter().try_fold(first, |a, &b| self.op(op, &[a, b])),
+        }
     }
 }
 
 /// What an instruction takes of an evaluation's budget.
 fn cost(instr: &Instr) -> u64 {
-    const ELEMENTARY: u64 = 16;
     match instr {
-        Instr::F1 { op, .. } if op.is_elementary() => ELEMENTARY,
-        Instr::F2 { op: F2::Pow | F2::Atan2 | F2::Rem, .. } => ELEMENTARY,
+        Instr::Compute { op: Op::Math(MathFunction::InverseSqrt, _), .. }
+        | Instr::Compute { op: Op::Binary(BinaryOperator::Modulo, ScalarKind::Float), .. } => 16,
+        Instr::Compute { op, .. } if op.class() == Class::Elementary => 16,
         Instr::Gather { .. } | Instr::Scatter { .. } => 4,
         _ => 1,
     }

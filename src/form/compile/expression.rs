@@ -1,14 +1,14 @@
 //! Expressions other than built-in functions.
 
-use naga::{BinaryOperator, Expression, Handle, ScalarKind, TypeInner, UnaryOperator};
+use naga::{BinaryOperator, Expression, Handle, RelationalFunction, ScalarKind, TypeInner};
 
 use super::Compiler;
 use super::access::scalar_of;
 use super::body::Frame;
 use super::value::{Place, Scalar, Value};
 use crate::form::FormError;
-use crate::form::operation::{B2, Compare, F1, F2, I1, I2};
-use crate::form::program::{Instr, Kind, Reg};
+use crate::form::operation::Op;
+use crate::form::program::{Kind, Reg};
 
 impl<'m> Compiler<'m> {
     /// The value of an expression: what was emitted for it, or what needs no emitting.
@@ -27,7 +27,8 @@ impl<'m> Compiler<'m> {
         Ok(value)
     }
 
-    fn regs_of(
+    /// The registers of an expression.
+    pub(super) fn regs_of(
         &mut self,
         frame: &mut Frame<'m>,
         handle: Handle<Expression>,
@@ -42,7 +43,7 @@ impl<'m> Compiler<'m> {
             Some(info) => &info[handle].ty,
             None => &self.info[handle],
         };
-        self.resolve(resolution).clone()
+        resolution.inner_with(&self.module.types).clone()
     }
 
     /// Kind of the scalars of an expression.
@@ -64,24 +65,24 @@ impl<'m> Compiler<'m> {
             return Ok(array);
         }
         let expressions = frame.expressions;
-        match &expressions[handle] {
+        let regs = match &expressions[handle] {
             &Expression::Literal(literal) => match scalar_of(literal) {
-                Some(scalar) => Ok(Value::Regs(vec![self.scalar(scalar)])),
-                None => Err(self.unsupported(span, "a literal that is not f32, i32, u32 or bool")),
+                Some(scalar) => vec![self.scalar(scalar)],
+                None => {
+                    let what = "a literal that is not f32, i32, u32 or bool";
+                    return Err(self.unsupported(span, what));
+                }
             },
             &Expression::Constant(constant) => {
                 match self.constant_global(self.module.constants[constant].init) {
-                    Some(scalars) => {
-                        Ok(Value::Regs(scalars.into_iter().map(|s| self.scalar(s)).collect()))
-                    }
-                    None => Err(self.unsupported(span, "the type of this constant")),
+                    Some(scalars) => self.scalars(scalars),
+                    None => return Err(self.unsupported(span, "the type of this constant")),
                 }
             }
-            &Expression::Override(handle) => Ok(Value::Regs(vec![self.override_value(handle)?])),
+            &Expression::Override(handle) => vec![self.override_value(handle)?],
             &Expression::ZeroValue(ty) => {
                 let kinds = self.kinds_of(ty)?;
-                let zeros = kinds.into_iter().map(|kind| self.scalar(Scalar::zero(kind)));
-                Ok(Value::Regs(zeros.collect()))
+                self.scalars(kinds.into_iter().map(Scalar::zero))
             }
             Expression::Compose { ty, components } => {
                 self.kinds_of(*ty)?;
@@ -89,76 +90,67 @@ impl<'m> Compiler<'m> {
                 for &component in components {
                     regs.extend(self.regs_of(frame, component)?);
                 }
-                Ok(Value::Regs(regs))
+                regs
             }
             &Expression::Access { base, index } => {
                 let inner = self.inner(frame, base);
                 let base = self.value(frame, base)?;
-                match self.regs_of(frame, index)?.as_slice() {
-                    &[Reg::I(index)] => self.access(&inner, base, index),
-                    _ => Err(self.unsupported(span, "this index")),
-                }
+                let index = self.regs_of(frame, index)?;
+                return self.access(&inner, base, index[0]);
             }
             &Expression::AccessIndex { base, index } => {
                 let inner = self.inner(frame, base);
                 let base = self.value(frame, base)?;
-                self.access_index(&inner, base, index as usize)
+                return self.access_index(&inner, base, index as usize);
             }
-            &Expression::Splat { size, value } => {
-                Ok(Value::Regs(self.regs_of(frame, value)?.repeat(size as usize)))
-            }
+            &Expression::Splat { size, value } => self.regs_of(frame, value)?.repeat(size as usize),
             &Expression::Swizzle { size, vector, pattern } => {
                 let regs = self.regs_of(frame, vector)?;
-                let picked = pattern.iter().take(size as usize);
-                Ok(Value::Regs(picked.filter_map(|&c| regs.get(c as usize).copied()).collect()))
+                pattern.iter().take(size as usize).map(|&c| regs[c as usize]).collect()
             }
-            &Expression::FunctionArgument(index) => match frame.arguments.get(index as usize) {
-                Some(value) => Ok(value.clone()),
-                None => Err(self.unsupported(span, "this argument")),
-            },
-            &Expression::GlobalVariable(variable) => self.global(variable),
-            &Expression::LocalVariable(variable) => match frame.locals.get(variable.index()) {
-                Some(regs) => Ok(Value::Place(Place {
-                    regs: regs.clone(),
-                    offset: 0,
-                    count: regs.len(),
-                    index: None,
-                })),
-                None => Err(self.unsupported(span, "this variable")),
-            },
+            &Expression::FunctionArgument(index) => {
+                return Ok(frame.arguments[index as usize].clone());
+            }
+            &Expression::GlobalVariable(variable) => return self.global(variable),
+            &Expression::LocalVariable(variable) => {
+                return Ok(Value::Place(Place::whole(frame.locals[variable.index()].clone())));
+            }
             &Expression::Load { pointer } => match self.value(frame, pointer)? {
-                Value::Place(place) => self.load(&place),
-                row @ Value::Row { .. } => Ok(Value::Regs(self.regs(row)?)),
-                _ => Err(self.unsupported(span, "reading through this pointer")),
+                Value::Place(place) => self.load(&place)?,
+                row @ Value::Row { .. } => self.regs(row)?,
+                _ => return Err(self.unsupported(span, "reading through this pointer")),
             },
             &Expression::Unary { op, expr } => {
+                let op = Op::Unary(op, self.scalar_kind(frame, expr));
                 let regs = self.regs_of(frame, expr)?;
-                self.each(&regs, |compiler, reg| compiler.unary(op, reg))
+                self.each(&[regs], |compiler, x| compiler.op(op, x))?
             }
             &Expression::Binary { op, left, right } => {
-                let kind = self.scalar_kind(frame, left);
+                let op = Op::Binary(op, self.scalar_kind(frame, left));
                 for side in [left, right] {
                     let inner = self.inner(frame, side);
                     self.kinds(&inner)?;
                 }
-                let (left, right) = (self.regs_of(frame, left)?, self.regs_of(frame, right)?);
-                self.each2(&left, &right, |compiler, a, b| compiler.binary(op, kind, a, b))
+                let sides = [self.regs_of(frame, left)?, self.regs_of(frame, right)?];
+                self.each(&sides, |compiler, x| compiler.op(op, x))?
             }
             &Expression::Select { condition, accept, reject } => {
                 let when = self.regs_of(frame, condition)?;
                 let (yes, no) = (self.regs_of(frame, accept)?, self.regs_of(frame, reject)?);
-                let mut picked = Vec::with_capacity(yes.len());
-                for (at, (&yes, &no)) in yes.iter().zip(&no).enumerate() {
-                    let Some(&Reg::B(when)) = when.get(at).or(when.first()) else {
-                        return Err(self.unsupported(span, "this condition"));
-                    };
-                    picked.push(self.select(when, yes, no)?);
-                }
-                Ok(Value::Regs(picked))
+                self.each(&[when, yes, no], Self::select)?
             }
             &Expression::Relational { fun, argument } => {
                 let regs = self.regs_of(frame, argument)?;
-                self.relational(fun, &regs)
+                let of_bools = |op| Op::Binary(op, ScalarKind::Bool);
+                match fun {
+                    RelationalFunction::All => {
+                        vec![self.fold(of_bools(BinaryOperator::LogicalAnd), &regs)?]
+                    }
+                    RelationalFunction::Any => {
+                        vec![self.fold(of_bools(BinaryOperator::LogicalOr), &regs)?]
+                    }
+                    _ => self.each(&[regs], |compiler, x| compiler.op(Op::Relational(fun), x))?,
+                }
             }
             &Expression::Math { fun, arg, arg1, arg2, arg3 } => {
                 let kind = self.scalar_kind(frame, arg);
@@ -168,7 +160,7 @@ impl<'m> Compiler<'m> {
                 for argument in [arg1, arg2, arg3].into_iter().flatten() {
                     arguments.push(self.regs_of(frame, argument)?);
                 }
-                self.math(fun, kind, &arguments)
+                self.math(fun, kind, &arguments)?
             }
             &Expression::As { expr, kind, convert } => {
                 let from = self.scalar_kind(frame, expr);
@@ -176,125 +168,38 @@ impl<'m> Compiler<'m> {
                     self.kind(naga::Scalar { kind, width })?;
                 }
                 let regs = self.regs_of(frame, expr)?;
-                self.each(&regs, |compiler, reg| {
-                    compiler.convert(from, kind, convert.is_some(), reg)
-                })
+                self.each(&[regs], |k, x| k.convert(from, kind, convert.is_some(), x[0]))?
             }
-            other => Err(self.unsupported(span, expression_name(other))),
-        }
-    }
-
-    /// Applies `f` to each component.
-    pub(super) fn each(
-        &mut self,
-        regs: &[Reg],
-        mut f: impl FnMut(&mut Self, Reg) -> Result<Reg, FormError>,
-    ) -> Result<Value, FormError> {
-        let results: Result<Vec<Reg>, _> = regs.iter().map(|&reg| f(self, reg)).collect();
-        Ok(Value::Regs(results?))
-    }
-
-    /// Applies `f` to each pair of components; a scalar goes with every component of a vector.
-    pub(super) fn each2(
-        &mut self,
-        a: &[Reg],
-        b: &[Reg],
-        mut f: impl FnMut(&mut Self, Reg, Reg) -> Result<Reg, FormError>,
-    ) -> Result<Value, FormError> {
-        let count = a.len().max(b.len());
-        let component = |regs: &[Reg], at: usize| regs.get(at).or(regs.first()).copied();
-        let mut results = Vec::with_capacity(count);
-        for at in 0..count {
-            if let (Some(a), Some(b)) = (component(a, at), component(b, at)) {
-                results.push(f(self, a, b)?);
-            }
-        }
-        Ok(Value::Regs(results))
-    }
-
-    fn unary(&mut self, op: UnaryOperator, reg: Reg) -> Result<Reg, FormError> {
-        match (op, reg) {
-            (UnaryOperator::Negate, Reg::F(a)) => Ok(Reg::F(self.float1(F1::Neg, a)?)),
-            (UnaryOperator::Negate, Reg::I(a)) => Ok(Reg::I(self.integer1(I1::Neg, a)?)),
-            (UnaryOperator::BitwiseNot, Reg::I(a)) => Ok(Reg::I(self.integer1(I1::Not, a)?)),
-            (UnaryOperator::LogicalNot, Reg::B(a)) => {
-                let to = self.new_reg(Kind::B);
-                if let Reg::B(to) = to {
-                    self.push(Instr::Not { to, a })?;
-                }
-                Ok(to)
-            }
-            _ => Err(self.unsupported(self.here, "this operator")),
-        }
-    }
-
-    fn binary(
-        &mut self,
-        op: BinaryOperator,
-        kind: ScalarKind,
-        a: Reg,
-        b: Reg,
-    ) -> Result<Reg, FormError> {
-        use BinaryOperator as Op;
-        let comparison = match op {
-            Op::Equal => Some(Compare::Equal),
-            Op::NotEqual => Some(Compare::NotEqual),
-            Op::Less => Some(Compare::Less),
-            Op::LessEqual => Some(Compare::LessEqual),
-            Op::Greater => Some(Compare::Greater),
-            Op::GreaterEqual => Some(Compare::GreaterEqual),
-            _ => None,
+            other => return Err(self.unsupported(span, expression_name(other))),
         };
-        let signed = kind == ScalarKind::Sint;
-        let pick = |yes: I2, no: I2| if signed { yes } else { no };
-        match (a, b) {
-            (Reg::F(a), Reg::F(b)) => {
-                if let Some(op) = comparison {
-                    return Ok(Reg::B(self.compare(op, a, b)?));
-                }
-                let op = match op {
-                    Op::Add => F2::Add,
-                    Op::Subtract => F2::Sub,
-                    Op::Multiply => F2::Mul,
-                    Op::Divide => F2::Div,
-                    Op::Modulo => F2::Rem,
-                    _ => return Err(self.unsupported(self.here, "this operator on f32")),
-                };
-                Ok(Reg::F(self.float2(op, a, b)?))
+        Ok(Value::Regs(regs))
+    }
+
+    /// A conversion of values, or a bitcast if not `by_value`.
+    fn convert(
+        &mut self,
+        from: ScalarKind,
+        to: ScalarKind,
+        by_value: bool,
+        reg: Reg,
+    ) -> Result<Reg, FormError> {
+        let not_equal = Op::Binary(BinaryOperator::NotEqual, from);
+        match (reg.kind, to.into()) {
+            (Kind::F, Kind::F) | (Kind::I, Kind::I) | (Kind::B, Kind::B) => Ok(reg),
+            (kind, Kind::B) => {
+                let zero = self.scalar(Scalar::zero(kind));
+                self.op(not_equal, &[reg, zero])
             }
-            (Reg::I(a), Reg::I(b)) => {
-                if let Some(op) = comparison {
-                    let to = self.program.booleans;
-                    self.program.booleans += 1;
-                    self.push(Instr::CompareI { op, signed, to, a, b })?;
-                    return Ok(Reg::B(to));
-                }
-                let op = match op {
-                    Op::Add => I2::Add,
-                    Op::Subtract => I2::Sub,
-                    Op::Multiply => I2::Mul,
-                    Op::Divide => pick(I2::DivSigned, I2::DivUnsigned),
-                    Op::Modulo => pick(I2::RemSigned, I2::RemUnsigned),
-                    Op::And => I2::And,
-                    Op::InclusiveOr => I2::Or,
-                    Op::ExclusiveOr => I2::Xor,
-                    Op::ShiftLeft => I2::ShiftLeft,
-                    Op::ShiftRight => pick(I2::ShiftRightSigned, I2::ShiftRightUnsigned),
-                    _ => return Err(self.unsupported(self.here, "this operator on integers")),
-                };
-                Ok(Reg::I(self.integer2(op, a, b)?))
+            (Kind::B, Kind::F) => {
+                let choice = [reg, self.float(1.0), self.float(0.0)];
+                self.select(&choice)
             }
-            (Reg::B(a), Reg::B(b)) => {
-                let op = match op {
-                    Op::And | Op::LogicalAnd => B2::And,
-                    Op::InclusiveOr | Op::LogicalOr => B2::Or,
-                    Op::Equal => B2::Equal,
-                    Op::NotEqual | Op::ExclusiveOr => B2::NotEqual,
-                    _ => return Err(self.unsupported(self.here, "this operator on bool")),
-                };
-                Ok(Reg::B(self.boolean2(op, a, b)?))
+            (Kind::B, Kind::I) => {
+                let choice = [reg, self.integer(1), self.integer(0)];
+                self.select(&choice)
             }
-            _ => Err(self.unsupported(self.here, "operands of different types")),
+            _ if by_value => self.op(Op::Convert(from, to), &[reg]),
+            _ => self.op(Op::Bitcast(to), &[reg]),
         }
     }
 }

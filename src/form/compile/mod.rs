@@ -6,14 +6,13 @@
 
 mod access;
 mod body;
-mod convert;
 mod emit;
 mod expression;
 mod math;
 mod types;
 mod value;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use naga::{Handle, Module, Span, TypeInner, valid::ModuleInfo};
@@ -36,18 +35,10 @@ const MAX_NESTING: usize = 160;
 pub(crate) struct Compiled {
     pub(crate) program: Program,
     pub(crate) parameters: Vec<Parameter>,
-    /// Every override that the function reaches.
-    pub(crate) overrides: Vec<CompiledOverride>,
+    /// Where the value is of every override that the function reaches.
+    pub(crate) overrides: BTreeMap<Handle<naga::Override>, Reg>,
     pub(crate) arguments: Vec<Argument>,
     pub(crate) result_components: usize,
-}
-
-/// Where the value of an override is.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct CompiledOverride {
-    pub(crate) handle: Handle<naga::Override>,
-    pub(crate) reg: Reg,
-    pub(crate) signed: bool,
 }
 
 /// State of one compilation.
@@ -61,12 +52,11 @@ struct Compiler<'m> {
     program: Program,
     /// Registers that hold the same value in every lane.
     uniform: HashSet<Reg>,
-    floats: HashMap<u32, Slot>,
-    integers: HashMap<u32, Slot>,
-    booleans: HashMap<bool, Slot>,
+    /// Registers of the constants so far.
+    constants: HashMap<Scalar, Reg>,
     /// The tables that constant arrays have become.
     tables: HashMap<(Kind, Arc<[u32]>), u32>,
-    overrides: HashMap<Handle<naga::Override>, Reg>,
+    overrides: BTreeMap<Handle<naga::Override>, Reg>,
     parameters: Vec<(Handle<naga::Override>, Slot)>,
     globals: HashMap<Handle<naga::GlobalVariable>, Vec<Reg>>,
     /// Stores of the initial values of `globals`.
@@ -110,11 +100,9 @@ pub(crate) fn compile(
             ..Program::default()
         },
         uniform: HashSet::new(),
-        floats: HashMap::new(),
-        integers: HashMap::new(),
-        booleans: HashMap::new(),
+        constants: HashMap::new(),
         tables: given.constants(),
-        overrides: HashMap::new(),
+        overrides: BTreeMap::new(),
         parameters: Vec::new(),
         globals: HashMap::new(),
         initial: Vec::new(),
@@ -180,27 +168,18 @@ impl<'m> Compiler<'m> {
         let item = &self.module.overrides[handle];
         let name = item.name.clone().unwrap_or_default();
         let is_float = self.module.types[item.ty].inner == TypeInner::Scalar(naga::Scalar::F32);
-        let constant = item.init.and_then(|init| self.constant_global(init));
-        let reg = match (is_float, item.init, constant) {
-            (true, None, _) | (true, Some(_), Some(_)) => {
-                let reg = self.new_reg(Kind::F);
-                if let Reg::F(slot) = reg {
-                    self.parameters.push((handle, slot));
-                }
-                self.mark_uniform(reg);
-                reg
+        let reg = match item.init {
+            Some(init) if !is_float || self.constant_global(init).is_none() => {
+                self.regs_of(&mut Frame::global(self.module), init)?[0]
             }
-            (false, None, _) => {
+            None if !is_float => {
                 return Err(self.unsupported(span, format!("override `{name}` without a value")));
             }
-            (_, Some(init), _) => {
-                let mut frame = Frame::global(self.module);
-                let value = self.value(&mut frame, init)?;
-                let regs = self.regs(value)?;
-                match regs.as_slice() {
-                    &[reg] => reg,
-                    _ => return Err(self.unsupported(span, format!("the type of `{name}`"))),
-                }
+            _ => {
+                let reg = self.new_reg(Kind::F);
+                self.parameters.push((handle, reg.slot));
+                self.uniform.insert(reg);
+                reg
             }
         };
         self.overrides.insert(handle, reg);
@@ -226,29 +205,19 @@ impl<'m> Compiler<'m> {
                 Parameter {
                     name: item.name.clone().unwrap_or_default(),
                     default: match default.as_deref() {
-                        Some(&[Scalar::F(bits)]) => Some(f64::from(f32::from_bits(bits))),
+                        Some(&[Scalar { bits, .. }]) => Some(f32::from_bits(bits).into()),
                         _ => None,
                     },
                 }
             })
             .collect();
-        let mut overrides: Vec<CompiledOverride> = self
-            .overrides
-            .iter()
-            .map(|(&handle, &reg)| {
-                let ty = &self.module.types[self.module.overrides[handle].ty].inner;
-                let signed = *ty == TypeInner::Scalar(naga::Scalar::I32);
-                CompiledOverride { handle, reg, signed }
-            })
-            .collect();
-        overrides.sort_by_key(|item| item.handle.index());
         self.program.parameters = self.parameters.iter().map(|&(_, slot)| slot).collect();
-        let slot = |&(Reg::F(slot) | Reg::I(slot) | Reg::B(slot)): &Reg| slot;
-        self.program.outputs = outputs.iter().map(slot).collect();
+        self.program.outputs = outputs.iter().map(|reg| reg.slot).collect();
         let cost = self.initial.len() as u64;
         self.program.body = vec![Node::Run { instrs: self.initial, cost }];
         self.program.body.extend(self.open.pop().unwrap_or_default());
-        Compiled { program: self.program, parameters, overrides, arguments, result_components }
+        let Self { program, overrides, .. } = self;
+        Compiled { program, parameters, overrides, arguments, result_components }
     }
 
     fn line(&self, span: Span) -> usize {

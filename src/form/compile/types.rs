@@ -1,6 +1,6 @@
 //! Types as runs of scalars.
 
-use naga::{Handle, ScalarKind, Type, TypeInner, proc::TypeResolution};
+use naga::{Handle, ScalarKind, Type, TypeInner};
 
 use super::Compiler;
 use crate::form::FormError;
@@ -16,14 +16,9 @@ impl Compiler<'_> {
             (ScalarKind::Float, 4) => Ok(Kind::F),
             (ScalarKind::Sint | ScalarKind::Uint, 4) => Ok(Kind::I),
             (ScalarKind::Bool, _) => Ok(Kind::B),
-            (kind, width) => {
-                let letter = match kind {
-                    ScalarKind::Float | ScalarKind::AbstractFloat => "f",
-                    ScalarKind::Uint => "u",
-                    _ => "i",
-                };
-                let bits = u32::from(width) * 8;
-                Err(self.unsupported(self.here, format!("the type `{letter}{bits}`")))
+            _ => {
+                let what = format!("the type `{}`", self.type_name(&TypeInner::Scalar(scalar)));
+                Err(self.unsupported(self.here, what))
             }
         }
     }
@@ -62,17 +57,10 @@ impl Compiler<'_> {
     }
 
     /// What a pointer points at, or the type itself.
-    pub(super) fn pointee<'a>(&'a self, inner: &'a TypeInner) -> std::borrow::Cow<'a, TypeInner> {
-        use std::borrow::Cow;
-        match *inner {
-            TypeInner::Pointer { base, .. } => Cow::Borrowed(&self.module.types[base].inner),
-            TypeInner::ValuePointer { size: Some(size), scalar, .. } => {
-                Cow::Owned(TypeInner::Vector { size, scalar })
-            }
-            TypeInner::ValuePointer { size: None, scalar, .. } => {
-                Cow::Owned(TypeInner::Scalar(scalar))
-            }
-            _ => Cow::Borrowed(inner),
+    pub(super) fn pointee(&self, inner: &TypeInner) -> TypeInner {
+        match inner.pointer_base_type() {
+            Some(base) => base.inner_with(&self.module.types).clone(),
+            None => inner.clone(),
         }
     }
 
@@ -111,11 +99,6 @@ impl Compiler<'_> {
                 Err(self.unsupported(self.here, what))
             }
         }
-    }
-
-    /// The type as a resolution's inner type.
-    pub(super) fn resolve<'a>(&'a self, resolution: &'a TypeResolution) -> &'a TypeInner {
-        resolution.inner_with(&self.module.types)
     }
 
     /// The type as a user would write it.

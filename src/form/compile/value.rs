@@ -2,30 +2,16 @@
 
 use crate::form::program::{Kind, Reg, Slot};
 
-/// A scalar known at compile time, by its bits.
+/// A scalar known at compile time, by its bits; a truth value is 0 or 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Scalar {
-    F(u32),
-    I(u32),
-    B(bool),
+pub(super) struct Scalar {
+    pub(super) kind: Kind,
+    pub(super) bits: u32,
 }
 
 impl Scalar {
     pub(super) fn zero(kind: Kind) -> Self {
-        match kind {
-            Kind::F => Self::F(0),
-            Kind::I => Self::I(0),
-            Kind::B => Self::B(false),
-        }
-    }
-
-    /// Kind and bits; a truth value is 0 or 1.
-    pub(super) fn parts(self) -> (Kind, u32) {
-        match self {
-            Self::F(bits) => (Kind::F, bits),
-            Self::I(bits) => (Kind::I, bits),
-            Self::B(value) => (Kind::B, value.into()),
-        }
+        Self { kind, bits: 0 }
     }
 }
 
@@ -39,7 +25,7 @@ pub(super) enum Value {
     /// A table that is given beside the text: `length` entries of `count` scalars.
     Table { table: u32, kind: Kind, length: u32, count: u32 },
     /// Part of a table: `count` scalars from `index + offset`.
-    Row { table: u32, kind: Kind, index: Slot, offset: u32, count: u32 },
+    Row { table: u32, kind: Kind, index: Reg, offset: u32, count: u32 },
     /// A reference to a variable or a part of one.
     Place(Place),
 }
@@ -50,5 +36,17 @@ pub(super) struct Place {
     pub(super) regs: Vec<Reg>,
     pub(super) offset: usize,
     pub(super) count: usize,
-    pub(super) index: Option<Slot>,
+    pub(super) index: Option<Reg>,
+}
+
+impl Place {
+    /// A whole variable.
+    pub(super) fn whole(regs: Vec<Reg>) -> Self {
+        Self { count: regs.len(), regs, offset: 0, index: None }
+    }
+
+    /// The slots of its registers from `component` on.
+    pub(super) fn slots(&self, component: usize) -> Box<[Slot]> {
+        self.regs[component..].iter().map(|reg| reg.slot).collect()
+    }
 }

@@ -71,12 +71,8 @@ impl<R: Real, T: Tangents<R>> Machine<R, T> {
                     self.block(program, body, mask, line)?;
                     *mask = entered;
                 }
-                Node::Break(exits) => {
-                    self.masks[*exits as usize].join(mask);
-                    *mask = Mask::NONE;
-                }
-                Node::Continue(continues) => {
-                    self.masks[*continues as usize].join(mask);
+                Node::Break(target) | Node::Continue(target) => {
+                    self.masks[*target as usize].join(mask);
                     *mask = Mask::NONE;
                 }
                 Node::Return => *mask = Mask::NONE,

@@ -8,13 +8,16 @@
 //! (√ at 0, a power at 0). Where a function jumps or bends (`floor`, `step`, `min`, a branch) the
 //! derivative is that of the side that the value is on. A bitcast has derivative zero.
 
+use std::collections::BTreeSet;
+
+use naga::{BinaryOperator as Operator, MathFunction as Math};
 use pulp::Arch;
 
+use super::LANES;
 use super::machine::{Files, Tangents};
-use super::real::{Real, each1, each2};
-use super::{LANES, real};
-use crate::form::operation::{F1, F2};
-use crate::form::program::{Instr, Program, Reg, Slot, each_instr};
+use super::real::{DEGREES_PER_RADIAN, RADIANS_PER_DEGREE, Real, each1, each2, sign};
+use crate::form::operation::Op;
+use crate::form::program::{Instr, Kind, Program, Reg, Slot, each_instr};
 
 /// Derivative planes of every float register.
 #[derive(Debug, Clone)]
@@ -37,41 +40,35 @@ enum Partial<'p> {
 impl Planes {
     /// Planes for `program`, whose parameters `free` (indices) are the ones to derive by.
     pub(crate) fn new(program: &Program, free: &[usize]) -> Self {
-        let words = free.len().div_ceil(64).max(1);
-        let mut sets = vec![vec![0_u64; words]; program.floats as usize];
-        for (k, &parameter) in free.iter().enumerate() {
-            sets[program.parameters[parameter] as usize][k / 64] |= 1 << (k % 64);
+        let mut depends = vec![BTreeSet::new(); program.registers[Kind::F as usize] as usize];
+        for (k, &parameter) in (0..).zip(free) {
+            depends[program.parameters[parameter] as usize].insert(k);
         }
         let mut instrs: Vec<&Instr> = program.prologue.iter().collect();
         each_instr(&program.body, &mut |instr| instrs.push(instr));
+        instrs.retain(|instr| carries(instr));
         // Variables feed back through loops: repeat until nothing changes.
-        let mut union = vec![0_u64; words];
         let mut changed = true;
         while changed {
             changed = false;
-            for instr in instrs.iter().filter(|instr| carries(instr)) {
-                union.fill(0);
-                let reads = |reg| {
-                    if let Reg::F(slot) = reg {
-                        union.iter_mut().zip(&sets[slot as usize]).for_each(|(u, s)| *u |= s);
+            for instr in &instrs {
+                let (mut union, mut written) = (BTreeSet::new(), Vec::new());
+                let reads = |reg: Reg| {
+                    if reg.kind == Kind::F {
+                        union.extend(&depends[reg.slot as usize]);
                     }
                 };
-                let mut written = Vec::new();
                 instr.visit(reads, |reg| written.push(reg));
-                for reg in written {
-                    if let Reg::F(slot) = reg {
-                        for (set, &u) in sets[slot as usize].iter_mut().zip(&union) {
-                            changed |= *set | u != *set;
-                            *set |= u;
-                        }
-                    }
+                for reg in written.iter().filter(|reg| reg.kind == Kind::F) {
+                    let set: &mut BTreeSet<u32> = &mut depends[reg.slot as usize];
+                    let before = set.len();
+                    set.extend(&union);
+                    changed |= set.len() > before;
                 }
             }
         }
-        let members = |set: &Vec<u64>| -> Vec<u32> {
-            (0..free.len() as u32).filter(|&k| set[k as usize / 64] >> (k % 64) & 1 == 1).collect()
-        };
-        let depends: Vec<Vec<u32>> = sets.iter().map(members).collect();
+        let depends: Vec<Vec<u32>> =
+            depends.into_iter().map(|set| set.into_iter().collect()).collect();
         let mut planes: Vec<Vec<f64>> =
             depends.iter().map(|depends| vec![0.0; depends.len() * LANES]).collect();
         for &parameter in free {
@@ -123,93 +120,119 @@ impl Planes {
         !self.depends[to as usize].is_empty()
     }
 
-    fn follow1(&mut self, op: F1, (to, a): (Slot, Slot), x: &[f64], r: &[f64]) {
-        let arch = self.arch;
-        let constant = match op {
-            F1::Neg => Some(-1.0),
-            F1::Degrees => Some(f64::DEGREES_PER_RADIAN),
-            F1::Radians => Some(f64::RADIANS_PER_DEGREE),
-            _ => None,
-        };
-        if let Some(factor) = constant {
-            return self.combine(to, x.len(), &[(a, Partial::Constant(factor))]);
-        }
+    /// Chain rule for one argument, by whose lanes `write` gives the partial derivative.
+    fn by_lanes(&mut self, (to, a): (Slot, Slot), n: usize, write: impl FnOnce(Arch, &mut [f64])) {
         let mut scratch = std::mem::take(&mut self.scratch);
-        let p = &mut scratch[0][..x.len()];
-        match op {
-            F1::Abs => real::float1(arch, F1::Sign, p, x),
-            F1::FrexpFract => each2(arch, p, x, r, |x, r| if x == 0.0 { 0.5 } else { r / x }),
-            F1::Sqrt => each1(arch, p, r, |r| 0.5 / r),
-            F1::InverseSqrt => each1(arch, p, r, |r| -0.5 * r * r * r),
-            F1::Sin => real::float1(arch, F1::Cos, p, x),
-            F1::Cos => {
-                real::float1(arch, F1::Sin, p, x);
-                p.iter_mut().for_each(|p| *p = -*p);
-            }
-            F1::Tan => each1(arch, p, r, |r| 1.0 + r * r),
-            F1::Asin => each1(arch, p, x, |x| 1.0 / ((1.0 - x) * (1.0 + x)).sqrt()),
-            F1::Acos => each1(arch, p, x, |x| -1.0 / ((1.0 - x) * (1.0 + x)).sqrt()),
-            F1::Atan => each1(arch, p, x, |x| 1.0 / (1.0 + x * x)),
-            F1::Sinh => real::float1(arch, F1::Cosh, p, x),
-            F1::Cosh => real::float1(arch, F1::Sinh, p, x),
-            F1::Tanh => each1(arch, p, r, |r| (1.0 - r) * (1.0 + r)),
-            F1::Asinh => each1(arch, p, x, |x| 1.0 / (x * x + 1.0).sqrt()),
-            F1::Acosh => each1(arch, p, x, |x| 1.0 / ((x - 1.0) * (x + 1.0)).sqrt()),
-            F1::Atanh => each1(arch, p, x, |x| 1.0 / ((1.0 - x) * (1.0 + x))),
-            F1::Exp => p.copy_from_slice(r),
-            F1::Exp2 => each1(arch, p, r, |r| r * std::f64::consts::LN_2),
-            F1::Log => each1(arch, p, x, |x| 1.0 / x),
-            F1::Log2 => each1(arch, p, x, |x| std::f64::consts::LOG2_E / x),
-            // `carries` keeps these from having planes.
-            _ => p.fill(0.0),
-        }
-        self.combine(to, x.len(), &[(a, Partial::Lanes(p))]);
+        let partial = &mut scratch[0][..n];
+        write(self.arch, partial);
+        self.combine(to, n, &[(a, Partial::Lanes(partial))]);
         self.scratch = scratch;
     }
 
-    fn follow2(&mut self, op: F2, (to, a, b): (Slot, Slot, Slot), files: &Files<f64>, n: usize) {
-        let arch = self.arch;
+    /// A function of one argument: `r = function(x)`.
+    fn follow_function(&mut self, function: Math, registers: (Slot, Slot), x: &[f64], r: &[f64]) {
+        self.by_lanes(registers, x.len(), |arch, p| match function {
+            Math::Abs => each1(arch, p, x, sign),
+            Math::Frexp => each2(arch, p, x, r, |x, r| if x == 0.0 { 0.5 } else { r / x }),
+            Math::Sqrt => each1(arch, p, r, |r| 0.5 / r),
+            Math::InverseSqrt => each1(arch, p, r, |r| -0.5 * r * r * r),
+            Math::Sin => f64::elementary(arch, Math::Cos, p, x),
+            Math::Cos => {
+                f64::elementary(arch, Math::Sin, p, x);
+                p.iter_mut().for_each(|p| *p = -*p);
+            }
+            Math::Tan => each1(arch, p, r, |r| 1.0 + r * r),
+            Math::Asin => each1(arch, p, x, |x| 1.0 / ((1.0 - x) * (1.0 + x)).sqrt()),
+            Math::Acos => each1(arch, p, x, |x| -1.0 / ((1.0 - x) * (1.0 + x)).sqrt()),
+            Math::Atan => each1(arch, p, x, |x| 1.0 / (1.0 + x * x)),
+            Math::Sinh => f64::elementary(arch, Math::Cosh, p, x),
+            Math::Cosh => f64::elementary(arch, Math::Sinh, p, x),
+            Math::Tanh => each1(arch, p, r, |r| (1.0 - r) * (1.0 + r)),
+            Math::Asinh => each1(arch, p, x, |x| 1.0 / (x * x + 1.0).sqrt()),
+            Math::Acosh => each1(arch, p, x, |x| 1.0 / ((x - 1.0) * (x + 1.0)).sqrt()),
+            Math::Atanh => each1(arch, p, x, |x| 1.0 / ((1.0 - x) * (1.0 + x))),
+            Math::Exp => p.copy_from_slice(r),
+            Math::Exp2 => each1(arch, p, r, |r| r * std::f64::consts::LN_2),
+            Math::Log => each1(arch, p, x, |x| 1.0 / x),
+            Math::Log2 => each1(arch, p, x, |x| std::f64::consts::LOG2_E / x),
+            // `carries` keeps the others from having planes.
+            _ => p.fill(0.0),
+        });
+    }
+
+    /// An operation on floats.
+    fn follow_op(
+        &mut self,
+        op: Op,
+        to: Slot,
+        [a, b, c, _]: [Slot; 4],
+        files: &Files<f64>,
+        n: usize,
+    ) {
         let lanes = |slot: Slot| &files.floats[slot as usize][..n];
-        let (x, y, r) = (lanes(a), lanes(b), lanes(to));
+        let (x, r) = (lanes(a), lanes(to));
+        let one = Partial::Constant(1.0);
         match op {
-            F2::Add | F2::Sub => {
-                let second = if op == F2::Add { 1.0 } else { -1.0 };
-                let arguments = [(a, Partial::Constant(1.0)), (b, Partial::Constant(second))];
-                return self.combine(to, n, &arguments);
+            Op::Unary(..) => self.combine(to, n, &[(a, Partial::Constant(-1.0))]),
+            Op::Math(Math::Degrees, _) => {
+                self.combine(to, n, &[(a, Partial::Constant(DEGREES_PER_RADIAN))]);
             }
-            F2::Mul => {
-                return self.combine(to, n, &[(a, Partial::Lanes(y)), (b, Partial::Lanes(x))]);
+            Op::Math(Math::Radians, _) => {
+                self.combine(to, n, &[(a, Partial::Constant(RADIANS_PER_DEGREE))]);
             }
+            Op::Math(Math::Ldexp, _) => self.by_lanes((to, a), n, |arch, p| {
+                let exponents = &files.integers[b as usize][..n];
+                each1(arch, p, exponents, |e| 1.0.scale(e as i32));
+            }),
+            Op::Math(Math::Fma, _) => {
+                let [by_a, by_b] = [b, a].map(|slot| Partial::Lanes(lanes(slot)));
+                self.combine(to, n, &[(a, by_a), (b, by_b), (c, one)]);
+            }
+            Op::Binary(Operator::Add, _) => self.combine(to, n, &[(a, one), (b, one)]),
+            Op::Binary(Operator::Subtract, _) => {
+                self.combine(to, n, &[(a, one), (b, Partial::Constant(-1.0))]);
+            }
+            Op::Binary(Operator::Multiply, _) => {
+                let [by_a, by_b] = [b, a].map(|slot| Partial::Lanes(lanes(slot)));
+                self.combine(to, n, &[(a, by_a), (b, by_b)]);
+            }
+            Op::Binary(..) | Op::Math(Math::Min | Math::Max | Math::Pow | Math::Atan2, _) => {
+                self.follow_pair(op, (to, a, b), [x, lanes(b), r]);
+            }
+            Op::Math(function, _) => self.follow_function(function, (to, a), x, r),
+            // What reads no float has no tangent.
             _ => {}
         }
+    }
+
+    /// A quotient, a remainder or a function of two arguments: `r = op(x, y)`.
+    fn follow_pair(&mut self, op: Op, (to, a, b): (Slot, Slot, Slot), [x, y, r]: [&[f64]; 3]) {
+        let (arch, n) = (self.arch, x.len());
         let (first, second) = (self.carried(a), self.carried(b));
         let mut scratch = std::mem::take(&mut self.scratch);
         let [p, q] = &mut scratch;
         let (p, q) = (&mut p[..n], &mut q[..n]);
         match op {
-            F2::Div => {
+            Op::Binary(Operator::Divide, _) => {
                 each1(arch, p, y, |y| 1.0 / y);
                 if second {
                     each2(arch, q, r, y, |r, y| -r / y);
                 }
             }
-            F2::Rem => {
+            Op::Binary(..) => {
                 p.fill(1.0);
                 each2(arch, q, x, y, |x, y| -(x / y).trunc());
             }
-            F2::Min => {
-                each2(arch, p, x, y, |x, y| if x < y { 1.0 } else { 0.0 });
+            Op::Math(function @ (Math::Min | Math::Max), _) => {
+                let (low, high) = if function == Math::Min { (x, y) } else { (y, x) };
+                each2(arch, p, low, high, |low, high| if low < high { 1.0 } else { 0.0 });
                 each1(arch, q, p, |p| 1.0 - p);
             }
-            F2::Max => {
-                each2(arch, p, x, y, |x, y| if x > y { 1.0 } else { 0.0 });
-                each1(arch, q, p, |p| 1.0 - p);
-            }
-            F2::Pow => {
+            Op::Math(Math::Pow, _) => {
                 if first {
                     each2(arch, p, r, x, |r, x| r / x);
                     for ((p, &x), &y) in p.iter_mut().zip(x).zip(y) {
-                        *p = y * if x == 0.0 { x.pow(y - 1.0) } else { *p };
+                        *p = y * if x == 0.0 { x.power(y - 1.0) } else { *p };
                     }
                 }
                 if second {
@@ -217,11 +240,10 @@ impl Planes {
                     each2(arch, q, x, r, by_exponent);
                 }
             }
-            F2::Atan2 => {
+            _ => {
                 each2(arch, p, x, y, |y, x| x / (x * x + y * y));
                 each2(arch, q, x, y, |y, x| -y / (x * x + y * y));
             }
-            F2::Add | F2::Sub | F2::Mul | F2::Step => {}
         }
         self.combine(to, n, &[(a, Partial::Lanes(p)), (b, Partial::Lanes(q))]);
         self.scratch = scratch;
@@ -231,55 +253,41 @@ impl Planes {
 impl Tangents<f64> for Planes {
     fn follow(&mut self, instr: &Instr, files: &Files<f64>, active: &[bool]) {
         let n = active.len();
-        let lanes = |slot: Slot| &files.floats[slot as usize][..n];
+        let indices = |slot: Slot| &files.integers[slot as usize][..n];
+        let copied = |from: Slot| [(from, Partial::Constant(1.0))];
         match *instr {
-            Instr::F1 { op, to, a } if self.carried(to) => {
-                self.follow1(op, (to, a), lanes(a), lanes(to));
-            }
-            Instr::F2 { op, to, a, b } if self.carried(to) => {
-                self.follow2(op, (to, a, b), files, n);
-            }
-            Instr::Fma { to, a, b, c } if self.carried(to) => {
-                let by_factor = [(a, Partial::Lanes(lanes(b))), (b, Partial::Lanes(lanes(a)))];
-                self.combine(to, n, &[by_factor[0], by_factor[1], (c, Partial::Constant(1.0))]);
-            }
-            Instr::Ldexp { to, a, exponent } if self.carried(to) => {
-                let mut scratch = std::mem::take(&mut self.scratch);
-                let exponents = &files.integers[exponent as usize][..n];
-                each1(self.arch, &mut scratch[0][..n], exponents, |e| 1.0.scale(e as i32));
-                self.combine(to, n, &[(a, Partial::Lanes(&scratch[0][..n]))]);
-                self.scratch = scratch;
-            }
-            Instr::Move { to: Reg::F(to), from: Reg::F(from) } if self.carried(to) => {
-                self.combine(to, n, &[(from, Partial::Constant(1.0))]);
-            }
-            Instr::Store { to: Reg::F(to), from: Reg::F(from) } if self.carried(to) => {
-                if active[..n].iter().all(|active| *active) {
-                    self.combine(to, n, &[(from, Partial::Constant(1.0))]);
-                } else {
-                    self.pick(to, n, |lane| active[lane].then_some(from));
+            Instr::Scatter { ref to, index, from } if from.kind == Kind::F => {
+                let index = indices(index);
+                for (at, &to) in to.iter().enumerate() {
+                    let written = |lane: usize| active[lane] && index[lane] as usize == at;
+                    self.pick(to, n, |lane| written(lane).then_some(from.slot));
                 }
             }
-            Instr::Select { to: Reg::F(to), when, yes: Reg::F(yes), no: Reg::F(no) }
+            Instr::Compute { op, to: Reg { kind: Kind::F, slot: to }, from }
+                if self.carried(to) =>
+            {
+                self.follow_op(op, to, from.map(|reg| reg.slot), files, n);
+            }
+            Instr::Select { to: Reg { kind: Kind::F, slot: to }, when, yes, no }
                 if self.carried(to) =>
             {
                 let when = &files.booleans[when as usize];
                 self.pick(to, n, |lane| Some(if when[lane] { yes } else { no }));
             }
-            Instr::Gather { to: Reg::F(to), ref from, index } if self.carried(to) => {
-                let index = &files.integers[index as usize];
-                self.pick(to, n, |lane| match from.get(index[lane] as usize) {
-                    Some(&Reg::F(from)) => Some(from),
-                    _ => None,
-                });
+            Instr::Gather { to: Reg { kind: Kind::F, slot: to }, ref from, index }
+                if self.carried(to) =>
+            {
+                let index = indices(index);
+                self.pick(to, n, |lane| from.get(index[lane] as usize).copied());
             }
-            Instr::Scatter { ref to, index, from: Reg::F(from) } => {
-                let index = &files.integers[index as usize];
-                for (at, &to) in to.iter().enumerate() {
-                    if let Reg::F(to) = to {
-                        let written = |lane: usize| active[lane] && index[lane] as usize == at;
-                        self.pick(to, n, |lane| written(lane).then_some(from));
-                    }
+            Instr::Move { to: Reg { kind: Kind::F, slot: to }, from } if self.carried(to) => {
+                self.combine(to, n, &copied(from));
+            }
+            Instr::Store { to: Reg { kind: Kind::F, slot: to }, from } if self.carried(to) => {
+                if active.iter().all(|active| *active) {
+                    self.combine(to, n, &copied(from));
+                } else {
+                    self.pick(to, n, |lane| active[lane].then_some(from));
                 }
             }
             _ => {}
@@ -289,13 +297,9 @@ impl Tangents<f64> for Planes {
 
 /// False for instructions whose result has derivative zero whatever they read.
 fn carries(instr: &Instr) -> bool {
-    !matches!(
-        instr,
-        Instr::F1 {
-            op: F1::Sign | F1::Floor | F1::Ceil | F1::Round | F1::Trunc | F1::QuantizeF16,
-            ..
-        } | Instr::F2 { op: F2::Step, .. }
-    )
+    use Math::*;
+    let Instr::Compute { op: Op::Math(function, _), .. } = instr else { return true };
+    !matches!(function, Sign | Floor | Ceil | Round | Trunc | QuantizeToF16 | Step)
 }
 
 /// `out = partial · tangent`, or `out += partial · tangent` if not `first`.

@@ -8,8 +8,10 @@
 
 #![expect(clippy::excessive_precision, reason = "digits as fdlibm publishes them")]
 
+use naga::MathFunction as Math;
 use pulp::Arch;
 
+use super::precision::exact;
 use super::real::each1;
 
 /// Adding it rounds a small double to an integer, which is then in the low bits.
@@ -213,37 +215,10 @@ fn repair(
     }
 }
 
-/// eˣ.
-pub(super) fn exp(arch: Arch, to: &mut [f64], a: &[f64]) {
-    each1(arch, to, a, exp_kernel);
-}
-
-/// 2ˣ.
-pub(super) fn exp2(arch: Arch, to: &mut [f64], a: &[f64]) {
-    each1(arch, to, a, exp2_kernel);
-}
-
-/// Hyperbolic tangent.
-pub(super) fn tanh(arch: Arch, to: &mut [f64], a: &[f64]) {
-    each1(arch, to, a, tanh_kernel);
-}
-
 #[inline(always)]
 fn angle_covered(x: f64, value: f64) -> bool {
     // Near zero the reduction is exact, and small results are right.
     (x.abs() <= LARGEST_ANGLE) & ((value.abs() >= SMALLEST_RESULT) | (x.abs() <= 0.5))
-}
-
-/// Sine.
-pub(super) fn sin(arch: Arch, to: &mut [f64], a: &[f64]) {
-    each1(arch, to, a, |x| sin_kernel(x, 0));
-    repair(arch, to, a, angle_covered, core_math::sin);
-}
-
-/// Cosine.
-pub(super) fn cos(arch: Arch, to: &mut [f64], a: &[f64]) {
-    each1(arch, to, a, |x| sin_kernel(x, 1));
-    repair(arch, to, a, angle_covered, core_math::cos);
 }
 
 #[inline(always)]
@@ -251,16 +226,32 @@ fn normal_positive(x: f64, _: f64) -> bool {
     (f64::MIN_POSITIVE..f64::INFINITY).contains(&x)
 }
 
-/// Natural logarithm.
-pub(super) fn log(arch: Arch, to: &mut [f64], a: &[f64]) {
-    each1(arch, to, a, log_kernel);
-    repair(arch, to, a, normal_positive, core_math::log);
-}
-
-/// Logarithm to base 2.
-pub(super) fn log2(arch: Arch, to: &mut [f64], a: &[f64]) {
-    each1(arch, to, a, log2_kernel);
-    repair(arch, to, a, normal_positive, core_math::log2);
+/// `to[i] = function(a[i])`.
+pub(super) fn evaluate(arch: Arch, function: Math, to: &mut [f64], a: &[f64]) {
+    let (exact, _) = exact(function);
+    match function {
+        Math::InverseSqrt => each1(arch, to, a, |x| 1.0 / x.sqrt()),
+        Math::Exp => each1(arch, to, a, exp_kernel),
+        Math::Exp2 => each1(arch, to, a, exp2_kernel),
+        Math::Tanh => each1(arch, to, a, tanh_kernel),
+        Math::Sin => {
+            each1(arch, to, a, |x| sin_kernel(x, 0));
+            repair(arch, to, a, angle_covered, exact);
+        }
+        Math::Cos => {
+            each1(arch, to, a, |x| sin_kernel(x, 1));
+            repair(arch, to, a, angle_covered, exact);
+        }
+        Math::Log => {
+            each1(arch, to, a, log_kernel);
+            repair(arch, to, a, normal_positive, exact);
+        }
+        Math::Log2 => {
+            each1(arch, to, a, log2_kernel);
+            repair(arch, to, a, normal_positive, exact);
+        }
+        _ => each1(arch, to, a, exact),
+    }
 }
 
 #[cfg(test)]
@@ -270,29 +261,25 @@ mod tests {
 
     use super::*;
 
-    type Kernel = fn(Arch, &mut [f64], &[f64]);
-
-    type Exact = fn(f64) -> f64;
-
-    /// Name, kernel, correctly rounded function, range, and the largest difference in ulp.
-    const FUNCTIONS: &[(&str, Kernel, Exact, f64, f64, f64)] = &[
-        ("exp", exp, core_math::exp, -760.0, 720.0, 1.0),
-        ("exp", exp, core_math::exp, -1.0, 1.0, 1.0),
-        ("exp2", exp2, core_math::exp2, -1080.0, 1030.0, 1.0),
-        ("exp2", exp2, core_math::exp2, -1.0, 1.0, 1.0),
-        ("tanh", tanh, core_math::tanh, -25.0, 25.0, 2.0),
-        ("tanh", tanh, core_math::tanh, -1.0, 1.0, 2.0),
-        ("tanh", tanh, core_math::tanh, -1e-4, 1e-4, 2.0),
-        ("sin", sin, core_math::sin, -10.0, 10.0, 1.0),
-        ("sin", sin, core_math::sin, -2e6, 2e6, 1.0),
-        ("sin", sin, core_math::sin, -1e-6, 1e-6, 1.0),
-        ("cos", cos, core_math::cos, -10.0, 10.0, 1.0),
-        ("cos", cos, core_math::cos, -2e6, 2e6, 1.0),
-        ("log", log, core_math::log, 0.0, 3.0, 1.0),
-        ("log", log, core_math::log, 0.999, 1.001, 1.0),
-        ("log", log, core_math::log, 0.0, 1e300, 1.0),
-        ("log2", log2, core_math::log2, 0.0, 3.0, 2.0),
-        ("log2", log2, core_math::log2, 0.999, 1.001, 2.0),
+    /// Function, range, and the largest difference from the correctly rounded one in ulp.
+    const FUNCTIONS: &[(Math, f64, f64, f64)] = &[
+        (Math::Exp, -760.0, 720.0, 1.0),
+        (Math::Exp, -1.0, 1.0, 1.0),
+        (Math::Exp2, -1080.0, 1030.0, 1.0),
+        (Math::Exp2, -1.0, 1.0, 1.0),
+        (Math::Tanh, -25.0, 25.0, 2.0),
+        (Math::Tanh, -1.0, 1.0, 2.0),
+        (Math::Tanh, -1e-4, 1e-4, 2.0),
+        (Math::Sin, -10.0, 10.0, 1.0),
+        (Math::Sin, -2e6, 2e6, 1.0),
+        (Math::Sin, -1e-6, 1e-6, 1.0),
+        (Math::Cos, -10.0, 10.0, 1.0),
+        (Math::Cos, -2e6, 2e6, 1.0),
+        (Math::Log, 0.0, 3.0, 1.0),
+        (Math::Log, 0.999, 1.001, 1.0),
+        (Math::Log, 0.0, 1e300, 1.0),
+        (Math::Log2, 0.0, 3.0, 2.0),
+        (Math::Log2, 0.999, 1.001, 2.0),
     ];
 
     const SPECIAL: &[f64] = &[
@@ -335,23 +322,24 @@ mod tests {
     #[test]
     fn within_the_stated_errors() {
         let mut rng = ChaCha8Rng::seed_from_u64(11);
-        for &(name, kernel, exact, low, high, bound) in FUNCTIONS {
+        for &(name, low, high, bound) in FUNCTIONS {
+            let (exact, _) = exact(name);
             let mut xs: Vec<f64> = (0..200_000).map(|_| rng.random_range(low..high)).collect();
             xs.extend(SPECIAL);
             let mut values = vec![0.0; xs.len()];
-            kernel(Arch::new(), &mut values, &xs);
+            evaluate(Arch::new(), name, &mut values, &xs);
             let mut worst = (0.0, 0.0);
             for (&x, &value) in xs.iter().zip(&values) {
                 let error = error_ulps(value, exact(x));
-                assert!(error <= bound, "{name}({x:e}) = {value:e}, not {:e}", exact(x));
+                assert!(error <= bound, "{name:?}({x:e}) = {value:e}, not {:e}", exact(x));
                 if exact(x) == 0.0 {
-                    assert_eq!(value.to_bits(), exact(x).to_bits(), "{name}({x:e})");
+                    assert_eq!(value.to_bits(), exact(x).to_bits(), "{name:?}({x:e})");
                 }
                 if error > worst.0 {
                     worst = (error, x);
                 }
             }
-            println!("{name} on [{low}, {high}]: {} ulp at {:e}", worst.0, worst.1);
+            println!("{name:?} on [{low}, {high}]: {} ulp at {:e}", worst.0, worst.1);
         }
     }
 
@@ -359,12 +347,12 @@ mod tests {
     fn the_same_without_vectors() {
         let mut rng = ChaCha8Rng::seed_from_u64(12);
         let xs: Vec<f64> = (0..10_000).map(|_| rng.random_range(-20.0..20.0)).collect();
-        for &(name, kernel, ..) in FUNCTIONS {
+        for &(name, ..) in FUNCTIONS {
             let (mut vector, mut scalar) = (vec![0.0; xs.len()], vec![0.0; xs.len()]);
-            kernel(Arch::new(), &mut vector, &xs);
-            kernel(Arch::Scalar, &mut scalar, &xs);
+            evaluate(Arch::new(), name, &mut vector, &xs);
+            evaluate(Arch::Scalar, name, &mut scalar, &xs);
             for (a, b) in vector.iter().zip(&scalar) {
-                assert!(a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()), "{name}");
+                assert!(a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()), "{name:?}");
             }
         }
     }

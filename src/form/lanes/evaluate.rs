@@ -1,11 +1,11 @@
 //! Evaluators: a machine kept with its form, so that repeated evaluations allocate nothing.
 
-use naga::{Handle, Literal, Override};
+use naga::{Handle, Literal, Override, ScalarKind};
 
 use super::dual::Planes;
 use super::machine::{Files, Machine, Tangents, Unbounded, ValuesOnly};
 use super::{LANES, MAX_CHUNK_COST, MAX_LOOP_ITERATIONS, Real};
-use crate::form::program::Reg;
+use crate::form::program::{Kind, Reg};
 use crate::form::{Dual, Form, FormError, Input};
 
 /// Evaluates one form again and again, in f64 or f32, without allocating.
@@ -18,36 +18,24 @@ pub struct Evaluator<R> {
 macro_rules! evaluator {
     ($real:ty) => {
         impl Evaluator<$real> {
-            pub(in crate::form) fn new(form: &Form) -> Self {
+            /// An evaluator that allocates nothing from its second use on.
+            pub fn new(form: &Form) -> Self {
                 let machine = Machine::new(form.program(), ValuesOnly);
                 Self { form: form.clone(), machine }
             }
 
             /// Evaluates at every point; `values` is resized to one vector per output column.
             ///
-            /// `parameters` in the order of [`Form::parameters`]; `inputs` one slice per entry of
+            /// `parameters` in the order of [`Form::parameters`]; `inputs` one column per entry of
             /// [`Form::input_columns`], all of one length (a form without inputs has one point).
             ///
             /// # Errors
             /// [`FormError::Shape`] if a count does not fit, [`FormError::Input`] if an integer
             /// argument does not take a number, [`FormError::Unbounded`] if a loop does not end.
-            pub fn eval_into(
+            pub fn eval_into<'c>(
                 &mut self,
                 parameters: &[$real],
-                inputs: &[&[$real]],
-                values: &mut Vec<Vec<$real>>,
-            ) -> Result<(), FormError> {
-                each_chunk(&self.form, &mut self.machine, parameters, inputs, values, |_, _| {})
-            }
-
-            /// Evaluates at every point, of columns of any type.
-            ///
-            /// # Errors
-            /// As [`Evaluator::eval_into`].
-            pub fn eval_inputs_into(
-                &mut self,
-                parameters: &[$real],
-                inputs: &[Input<'_>],
+                inputs: &[impl Copy + Into<Input<'c>>],
                 values: &mut Vec<Vec<$real>>,
             ) -> Result<(), FormError> {
                 each_chunk(&self.form, &mut self.machine, parameters, inputs, values, |_, _| {})
@@ -68,7 +56,12 @@ pub struct DualEvaluator {
 }
 
 impl DualEvaluator {
-    pub(in crate::form) fn new(form: &Form, free: &[usize]) -> Result<Self, FormError> {
+    /// An evaluator with derivatives by the parameters whose indices are in `free`; it allocates
+    /// nothing from its second use on.
+    ///
+    /// # Errors
+    /// [`FormError::Shape`] if `free` names no parameter or one twice.
+    pub fn new(form: &Form, free: &[usize]) -> Result<Self, FormError> {
         let parameters = form.parameters().len();
         if let Some(index) = free.iter().find(|&&index| index >= parameters) {
             let what = format!("free parameter {index} asked for, but it has {parameters}");
@@ -142,20 +135,19 @@ fn each_chunk<'c, R: Real, T: Tangents<R>, C: Copy + Into<Input<'c>>>(
         )));
     }
     values.resize(program.outputs.len(), Vec::new());
-    values.iter_mut().for_each(|column| column.resize(points, R::ZERO));
+    values.iter_mut().for_each(|column| column.resize(points, R::zero()));
     machine.prepare(program, parameters);
     for start in (0..points).step_by(LANES) {
         let chunk = start..points.min(start + LANES);
         for (at, (&reg, &input)) in program.inputs.iter().zip(inputs).enumerate() {
             let Files { floats, integers, .. } = &mut machine.files;
-            match reg {
-                Reg::F(slot) => input.into().fill(chunk.clone(), &mut floats[slot as usize]),
-                Reg::I(slot) | Reg::B(slot) => {
-                    let scalar = form.input_type(at);
-                    for (lane, row) in integers[slot as usize].iter_mut().zip(chunk.clone()) {
-                        *lane = form.word(at, scalar, input.into(), row)?;
-                    }
-                }
+            if reg.kind == Kind::F {
+                input.into().fill(chunk.clone(), &mut floats[reg.slot as usize]);
+                continue;
+            }
+            let scalar = form.input_type(at);
+            for (lane, row) in integers[reg.slot as usize].iter_mut().zip(chunk.clone()) {
+                *lane = form.word(at, scalar, input.into(), row)?;
             }
         }
         machine.run(program, chunk.len()).map_err(|unbounded| unbounded_error(form, unbounded))?;
@@ -173,18 +165,17 @@ pub(crate) fn override_values(form: &Form, parameters: &[f32]) -> Vec<(Handle<Ov
     let mut machine = Machine::<f32, _>::new(form.program(), ValuesOnly);
     machine.prepare(form.program(), parameters);
     let Files { floats, integers, booleans } = &machine.files;
-    form.overrides()
-        .iter()
-        .map(|item| {
-            let literal = match (item.reg, item.signed) {
-                (Reg::F(slot), _) => Literal::F32(floats[slot as usize][0]),
-                (Reg::I(slot), true) => Literal::I32(integers[slot as usize][0] as i32),
-                (Reg::I(slot), false) => Literal::U32(integers[slot as usize][0]),
-                (Reg::B(slot), _) => Literal::Bool(booleans[slot as usize][0]),
-            };
-            (item.handle, literal)
-        })
-        .collect()
+    let literal = |(&handle, reg): (&Handle<Override>, &Reg)| {
+        let (slot, ty) = (reg.slot as usize, form.module().overrides[handle].ty);
+        let literal = match form.module().types[ty].inner.scalar_kind() {
+            Some(ScalarKind::Sint) => Literal::I32(integers[slot][0] as i32),
+            Some(ScalarKind::Uint) => Literal::U32(integers[slot][0]),
+            Some(ScalarKind::Bool) => Literal::Bool(booleans[slot][0]),
+            _ => Literal::F32(floats[slot][0]),
+        };
+        (handle, literal)
+    };
+    form.overrides().iter().map(literal).collect()
 }
 
 fn unbounded_error(form: &Form, unbounded: Unbounded) -> FormError {

@@ -1,19 +1,34 @@
 //! The interpreter's registers, and what each instruction does to them.
 
+use naga::{MathFunction as Math, RelationalFunction, ScalarKind, UnaryOperator};
 use pulp::Arch;
 
 use super::LANES;
-use super::integer::{boolean2, compare_integers, extract_bits, insert_bits, integer1, integer2};
+use super::integer::{self, compare_integers, extract_bits, insert_bits, logic};
 use super::mask::Mask;
-use super::real::{Real, compare, each1, each2, float1, float2, from_integer, to_integer};
-use crate::form::program::{Instr, Program, Reg, Slot};
+use super::real::{self, Real, compare, each1, each2, from_f32, to_f32};
+use crate::form::half;
+use crate::form::operation::{Op, is_comparison};
+use crate::form::program::{Instr, Kind, Program, Reg, Slot};
 
-/// The register files: one vector of lanes per register.
+/// The register files: the lanes of every register.
 #[derive(Debug, Clone)]
 pub(crate) struct Files<R> {
-    pub(crate) floats: Vec<Vec<R>>,
-    pub(crate) integers: Vec<Vec<u32>>,
-    pub(crate) booleans: Vec<Vec<bool>>,
+    pub(crate) floats: Vec<Box<[R]>>,
+    pub(crate) integers: Vec<Box<[u32]>>,
+    pub(crate) booleans: Vec<Box<[bool]>>,
+}
+
+impl<R: Copy> Files<R> {
+    /// Copies one lane between registers of one kind.
+    fn copy_lane(&mut self, kind: Kind, lane: usize, to: Slot, from: Slot) {
+        let (to, from) = (to as usize, from as usize);
+        match kind {
+            Kind::F => self.floats[to][lane] = self.floats[from][lane],
+            Kind::I => self.integers[to][lane] = self.integers[from][lane],
+            Kind::B => self.booleans[to][lane] = self.booleans[from][lane],
+        }
+    }
 }
 
 /// Follows the derivatives while the machine computes the values.
@@ -52,19 +67,19 @@ pub(crate) struct Machine<R, T> {
 impl<R: Real, T: Tangents<R>> Machine<R, T> {
     /// A machine with the program's registers, its constants in place.
     pub(crate) fn new(program: &Program, tangents: T) -> Self {
+        let [floats, integers, booleans] = program.registers.map(|count| count as usize);
         let mut files = Files {
-            floats: vec![vec![R::ZERO; LANES]; program.floats as usize],
-            integers: vec![vec![0; LANES]; program.integers as usize],
-            booleans: vec![vec![false; LANES]; program.booleans as usize],
+            floats: vec![[R::zero(); LANES].into(); floats],
+            integers: vec![[0; LANES].into(); integers],
+            booleans: vec![[false; LANES].into(); booleans],
         };
-        for &(slot, value) in &program.float_constants {
-            files.floats[slot as usize].fill(R::from_f32(value));
-        }
-        for &(slot, value) in &program.integer_constants {
-            files.integers[slot as usize].fill(value);
-        }
-        for &(slot, value) in &program.boolean_constants {
-            files.booleans[slot as usize].fill(value);
+        for &(reg, bits) in &program.constants {
+            let slot = reg.slot as usize;
+            match reg.kind {
+                Kind::F => files.floats[slot].fill(from_f32(f32::from_bits(bits))),
+                Kind::I => files.integers[slot].fill(bits),
+                Kind::B => files.booleans[slot].fill(bits != 0),
+            }
         }
         let masks = vec![Mask::NONE; program.masks as usize];
         Self { arch: Arch::new(), files, tangents, masks, active_lanes: 0, spent: 0 }
@@ -114,145 +129,148 @@ impl<R: Real, T: Tangents<R>> Machine<R, T> {
             };
         }
         match *instr {
-            Instr::F1 { op, to, a } => {
-                write!(floats[to], |out| float1(arch, op, out, read!(floats[a])));
+            Instr::Compute { op, to: Reg { slot: to, .. }, from: [a, b, c, d] } => {
+                use ScalarKind::{Bool, Float, Sint};
+                // `map!(to <- from, f)`: lane by lane. `zip!(to <- from, f, op)`: of two arguments.
+                macro_rules! map {
+                    ($to:ident <- $from:ident, $f:expr) => {
+                        write!($to[to], |out| each1(arch, out, read!($from[a.slot]), $f))
+                    };
+                }
+                macro_rules! zip {
+                    ($to:ident <- $from:ident, $f:path, $op:expr) => {
+                        write!($to[to], |out| $f(
+                            arch,
+                            $op,
+                            out,
+                            read!($from[a.slot]),
+                            read!($from[b.slot])
+                        ))
+                    };
+                }
+                match op {
+                    Op::Math(Math::Fma, _) => write!(floats[to], |out| {
+                        let (a, b, c) =
+                            (read!(floats[a.slot]), read!(floats[b.slot]), read!(floats[c.slot]));
+                        fma(arch, out, a, b, c)
+                    }),
+                    Op::Math(Math::Ldexp, _) => write!(floats[to], |out| {
+                        let scale = |a: R, exponent| a.scale(exponent as i32);
+                        each2(arch, out, read!(floats[a.slot]), read!(integers[b.slot]), scale)
+                    }),
+                    Op::Math(function, Float) => zip!(floats <- floats, real::math, function),
+                    Op::Math(Math::ExtractBits, kind) => write!(integers[to], |out| {
+                        for (lane, out) in out.iter_mut().enumerate() {
+                            let [bits, at, count] =
+                                [a, b, c].map(|r| integers[r.slot as usize][lane]);
+                            *out = extract_bits(kind == Sint, bits, at, count);
+                        }
+                    }),
+                    Op::Math(Math::InsertBits, _) => write!(integers[to], |out| {
+                        for (lane, out) in out.iter_mut().enumerate() {
+                            let [a, bits, at, count] =
+                                [a, b, c, d].map(|r| integers[r.slot as usize][lane]);
+                            *out = insert_bits(a, bits, at, count);
+                        }
+                    }),
+                    Op::Math(function, kind) => {
+                        zip!(integers <- integers, integer::math, (function, kind == Sint));
+                    }
+                    Op::Unary(_, Float) => map!(floats <- floats, |x: R| -x),
+                    Op::Unary(_, Bool) => map!(booleans <- booleans, |x| !x),
+                    Op::Unary(UnaryOperator::Negate, _) => {
+                        map!(integers <- integers, u32::wrapping_neg);
+                    }
+                    Op::Unary(..) => map!(integers <- integers, |x| !x),
+                    Op::Binary(op, Bool) => zip!(booleans <- booleans, logic, op),
+                    Op::Binary(op, Float) if is_comparison(op) => {
+                        zip!(booleans <- floats, compare, op);
+                    }
+                    Op::Binary(op, Float) => zip!(floats <- floats, real::arithmetic, op),
+                    Op::Binary(op, kind) if is_comparison(op) => {
+                        zip!(booleans <- integers, compare_integers, (op, kind == Sint));
+                    }
+                    Op::Binary(op, kind) => {
+                        zip!(integers <- integers, integer::arithmetic, (op, kind == Sint));
+                    }
+                    Op::FrexpExponent => map!(integers <- floats, |x: R| x.split().1 as u32),
+                    Op::Half => map!(floats <- integers, |bits| from_f32(half::value(bits))),
+                    Op::Relational(RelationalFunction::IsNan) => {
+                        map!(booleans <- floats, R::is_nan);
+                    }
+                    Op::Relational(_) => map!(booleans <- floats, R::is_infinite),
+                    Op::Convert(Float, Sint) => {
+                        map!(integers <- floats, |x: R| x.signed() as u32);
+                    }
+                    Op::Convert(Float, _) => map!(integers <- floats, R::unsigned),
+                    Op::Convert(Sint, _) => {
+                        map!(floats <- integers, |bits| R::from_f64((bits as i32).into()));
+                    }
+                    Op::Convert(..) => map!(floats <- integers, |bits| R::from_f64(bits.into())),
+                    Op::Bitcast(Float) => {
+                        map!(floats <- integers, |bits| from_f32(f32::from_bits(bits)));
+                    }
+                    Op::Bitcast(_) => map!(integers <- floats, |x: R| to_f32(x).to_bits()),
+                }
             }
-            Instr::F2 { op, to, a, b } => {
-                write!(floats[to], |out| float2(arch, op, out, read!(floats[a]), read!(floats[b])));
-            }
-            Instr::Fma { to, a, b, c } => write!(floats[to], |out| {
-                let (a, b, c) = (read!(floats[a]), read!(floats[b]), read!(floats[c]));
-                fma(arch, out, a, b, c)
-            }),
-            Instr::Ldexp { to, a, exponent } => write!(floats[to], |out| {
-                let scale = |a: R, exponent| a.scale(exponent as i32);
-                each2(arch, out, read!(floats[a]), read!(integers[exponent]), scale)
-            }),
-            Instr::FToI { op, to, a } => {
-                write!(integers[to], |out| to_integer(arch, op, out, read!(floats[a])));
-            }
-            Instr::IToF { op, to, a } => {
-                write!(floats[to], |out| from_integer(arch, op, out, read!(integers[a])));
-            }
-            Instr::CompareF { op, to, a, b } => write!(booleans[to], |out| {
-                compare(arch, op, out, read!(floats[a]), read!(floats[b]))
-            }),
-            Instr::IsNan { to, a } => {
-                write!(booleans[to], |out| each1(arch, out, read!(floats[a]), R::is_nan));
-            }
-            Instr::IsInf { to, a } => {
-                write!(booleans[to], |out| each1(arch, out, read!(floats[a]), R::is_infinite));
-            }
-            Instr::I1 { op, to, a } => {
-                write!(integers[to], |out| integer1(arch, op, out, read!(integers[a])));
-            }
-            Instr::I2 { op, to, a, b } => write!(integers[to], |out| {
-                integer2(arch, op, out, read!(integers[a]), read!(integers[b]))
-            }),
-            Instr::ExtractBits { signed, to, a, offset, count: bits } => {
-                write!(integers[to], |out| for (lane, out) in out.iter_mut().enumerate() {
-                    let at = |slot: Slot| integers[slot as usize][lane];
-                    *out = extract_bits(signed, at(a), at(offset), at(bits));
-                });
-            }
-            Instr::InsertBits { to, a, bits, offset, count: width } => {
-                write!(integers[to], |out| for (lane, out) in out.iter_mut().enumerate() {
-                    let at = |slot: Slot| integers[slot as usize][lane];
-                    *out = insert_bits(at(a), at(bits), at(offset), at(width));
-                });
-            }
-            Instr::CompareI { op, signed, to, a, b } => write!(booleans[to], |out| {
-                compare_integers(arch, op, signed, out, read!(integers[a]), read!(integers[b]))
-            }),
-            Instr::Not { to, a } => {
-                write!(booleans[to], |out| each1(arch, out, read!(booleans[a]), |x| !x));
-            }
-            Instr::B2 { op, to, a, b } => write!(booleans[to], |out| {
-                boolean2(arch, op, out, read!(booleans[a]), read!(booleans[b]))
-            }),
-            Instr::Select { to, when, yes, no } => match (to, yes, no) {
-                (Reg::F(to), Reg::F(yes), Reg::F(no)) => write!(floats[to], |out| {
+            Instr::Select { to, when, yes, no } => match to.kind {
+                Kind::F => write!(floats[to.slot], |out| {
                     let when = read!(booleans[when]);
                     select(arch, out, when, read!(floats[yes]), read!(floats[no]))
                 }),
-                (Reg::I(to), Reg::I(yes), Reg::I(no)) => write!(integers[to], |out| {
+                Kind::I => write!(integers[to.slot], |out| {
                     let when = read!(booleans[when]);
                     select(arch, out, when, read!(integers[yes]), read!(integers[no]))
                 }),
-                (Reg::B(to), Reg::B(yes), Reg::B(no)) => write!(booleans[to], |out| {
+                Kind::B => write!(booleans[to.slot], |out| {
                     let when = read!(booleans[when]);
                     select(arch, out, when, read!(booleans[yes]), read!(booleans[no]))
                 }),
-                _ => unreachable!("the compiler selects between registers of one kind"),
             },
             Instr::Table { to, table, index, offset } => {
-                let words = &program.tables[table as usize];
-                let word = |i: u32| words[(i + offset) as usize];
-                match to {
-                    Reg::F(to) => write!(floats[to], |out| {
-                        let number = |i| R::from_f32(f32::from_bits(word(i)));
+                let words = &program.tables[table as usize][offset as usize..];
+                let word = |i: u32| words[i as usize];
+                match to.kind {
+                    Kind::F => write!(floats[to.slot], |out| {
+                        let number = |i| from_f32(f32::from_bits(word(i)));
                         each1(arch, out, read!(integers[index]), number)
                     }),
-                    Reg::I(to) => write!(integers[to], |out| {
+                    Kind::I => write!(integers[to.slot], |out| {
                         each1(arch, out, read!(integers[index]), word)
                     }),
-                    Reg::B(to) => write!(booleans[to], |out| {
+                    Kind::B => write!(booleans[to.slot], |out| {
                         each1(arch, out, read!(integers[index]), |i| word(i) != 0)
                     }),
-                }
-            }
-            Instr::Gather { to, ref from, index } => {
-                for lane in 0..count {
-                    let Some(&from) = from.get(integers[index as usize][lane] as usize) else {
-                        continue;
-                    };
-                    match (to, from) {
-                        (Reg::F(to), Reg::F(from)) => {
-                            floats[to as usize][lane] = floats[from as usize][lane];
-                        }
-                        (Reg::I(to), Reg::I(from)) => {
-                            integers[to as usize][lane] = integers[from as usize][lane];
-                        }
-                        (Reg::B(to), Reg::B(from)) => {
-                            booleans[to as usize][lane] = booleans[from as usize][lane];
-                        }
-                        _ => unreachable!("the compiler gathers from registers of one kind"),
-                    }
                 }
             }
             Instr::Move { to, from } | Instr::Store { to, from } => {
                 let all = all || matches!(instr, Instr::Move { .. });
                 let when = mask.lanes(count);
-                match (to, from) {
-                    (Reg::F(to), Reg::F(from)) => {
-                        write!(floats[to], |out| copy(arch, out, read!(floats[from]), when, all));
-                    }
-                    (Reg::I(to), Reg::I(from)) => write!(integers[to], |out| {
+                match to.kind {
+                    Kind::F => write!(floats[to.slot], |out| {
+                        copy(arch, out, read!(floats[from]), when, all)
+                    }),
+                    Kind::I => write!(integers[to.slot], |out| {
                         copy(arch, out, read!(integers[from]), when, all)
                     }),
-                    (Reg::B(to), Reg::B(from)) => write!(booleans[to], |out| {
+                    Kind::B => write!(booleans[to.slot], |out| {
                         copy(arch, out, read!(booleans[from]), when, all)
                     }),
-                    _ => unreachable!("the compiler copies between registers of one kind"),
+                }
+            }
+            Instr::Gather { to, ref from, index } => {
+                for lane in 0..count {
+                    let at = self.files.integers[index as usize][lane] as usize;
+                    if let Some(&from) = from.get(at) {
+                        self.files.copy_lane(to.kind, lane, to.slot, from);
+                    }
                 }
             }
             Instr::Scatter { ref to, index, from } => {
-                for (lane, _) in mask.lanes(count).iter().enumerate().filter(|(_, active)| **active)
-                {
-                    let Some(&to) = to.get(integers[index as usize][lane] as usize) else {
-                        continue;
-                    };
-                    match (to, from) {
-                        (Reg::F(to), Reg::F(from)) => {
-                            floats[to as usize][lane] = floats[from as usize][lane];
-                        }
-                        (Reg::I(to), Reg::I(from)) => {
-                            integers[to as usize][lane] = integers[from as usize][lane];
-                        }
-                        (Reg::B(to), Reg::B(from)) => {
-                            booleans[to as usize][lane] = booleans[from as usize][lane];
-                        }
-                        _ => unreachable!("the compiler scatters to registers of one kind"),
+                for (lane, _) in mask.lanes(count).iter().enumerate().filter(|lane| *lane.1) {
+                    let at = self.files.integers[index as usize][lane] as usize;
+                    if let Some(&to) = to.get(at) {
+                        self.files.copy_lane(from.kind, lane, to, from.slot);
                     }
                 }
             }

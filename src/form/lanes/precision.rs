@@ -4,94 +4,67 @@
 //! the others correctly rounded (CORE-MATH). f32: all of them correctly rounded, so that a form
 //! gives the same bits on every machine.
 
+use naga::MathFunction as Math;
 use pulp::Arch;
 
 use super::elementary;
-use super::real::{Real, each1, float1};
-use crate::form::operation::F1;
+use super::real::{Real, each1};
 
 /// The items of [`Real`] that read the same for both types.
 macro_rules! shared {
     ($pow:path, $atan2:path) => {
-        const ZERO: Self = 0.0;
-        const ONE: Self = 1.0;
-        const DEGREES_PER_RADIAN: Self = (180.0 / std::f64::consts::PI) as Self;
-        const RADIANS_PER_DEGREE: Self = (std::f64::consts::PI / 180.0) as Self;
-
-        #[inline(always)]
-        fn from_f32(value: f32) -> Self {
-            value as Self
-        }
         #[inline(always)]
         fn from_f64(value: f64) -> Self {
             value as Self
         }
         #[inline(always)]
-        fn to_f32(self) -> f32 {
-            self as f32
-        }
-        #[inline(always)]
-        fn from_i32(value: i32) -> Self {
-            value as Self
-        }
-        #[inline(always)]
-        fn from_u32(value: u32) -> Self {
-            value as Self
-        }
-        #[inline(always)]
-        fn to_i32(self) -> i32 {
+        fn signed(self) -> i32 {
             // The largest f32 below 2³¹, what shaders clamp to: both types saturate alike.
             self.min(2_147_483_520.0) as i32 * i32::from(!self.is_nan())
         }
         #[inline(always)]
-        fn to_u32(self) -> u32 {
+        fn unsigned(self) -> u32 {
             self.min(4_294_967_040.0) as u32 * u32::from(!self.is_nan())
-        }
-        #[inline(always)]
-        fn abs(self) -> Self {
-            self.abs()
-        }
-        #[inline(always)]
-        fn sqrt(self) -> Self {
-            self.sqrt()
-        }
-        #[inline(always)]
-        fn floor(self) -> Self {
-            self.floor()
-        }
-        #[inline(always)]
-        fn ceil(self) -> Self {
-            self.ceil()
-        }
-        #[inline(always)]
-        fn trunc(self) -> Self {
-            self.trunc()
         }
         #[inline(always)]
         fn round_even(self) -> Self {
             self.round_ties_even()
         }
         #[inline(always)]
-        fn mul_add(self, factor: Self, addend: Self) -> Self {
-            self.mul_add(factor, addend)
-        }
-        #[inline(always)]
-        fn is_nan(self) -> bool {
-            self.is_nan()
-        }
-        #[inline(always)]
-        fn is_infinite(self) -> bool {
-            self.is_infinite()
-        }
-        #[inline(always)]
-        fn pow(self, exponent: Self) -> Self {
+        fn power(self, exponent: Self) -> Self {
             if self < 0.0 { Self::NAN } else { $pow(self, exponent) }
         }
         #[inline(always)]
-        fn atan2(self, x: Self) -> Self {
+        fn angle(self, x: Self) -> Self {
             $atan2(self, x)
         }
     };
+}
+
+type Function<R> = fn(R) -> R;
+
+/// The correctly rounded functions, in f64 and in f32.
+pub(super) fn exact(function: Math) -> (Function<f64>, Function<f32>) {
+    match function {
+        Math::InverseSqrt => (core_math::rsqrt, core_math::rsqrtf),
+        Math::Sin => (core_math::sin, core_math::sinf),
+        Math::Cos => (core_math::cos, core_math::cosf),
+        Math::Tan => (core_math::tan, core_math::tanf),
+        Math::Asin => (core_math::asin, core_math::asinf),
+        Math::Acos => (core_math::acos, core_math::acosf),
+        Math::Atan => (core_math::atan, core_math::atanf),
+        Math::Sinh => (core_math::sinh, core_math::sinhf),
+        Math::Cosh => (core_math::cosh, core_math::coshf),
+        Math::Tanh => (core_math::tanh, core_math::tanhf),
+        Math::Asinh => (core_math::asinh, core_math::asinhf),
+        Math::Acosh => (core_math::acosh, core_math::acoshf),
+        Math::Atanh => (core_math::atanh, core_math::atanhf),
+        Math::Exp => (core_math::exp, core_math::expf),
+        Math::Exp2 => (core_math::exp2, core_math::exp2f),
+        Math::Log => (core_math::log, core_math::logf),
+        Math::Log2 => (core_math::log2, core_math::log2f),
+        _ => unreachable!("{function:?} is no elementary function of the lanes"),
+    }
 }
 
 impl Real for f64 {
@@ -118,28 +91,8 @@ impl Real for f64 {
         let fraction = Self::from_bits((bits & !(0x7ff << 52)) | (1022 << 52));
         (fraction, exponent)
     }
-    fn elementary(arch: Arch, op: F1, to: &mut [Self], a: &[Self]) {
-        let function = match op {
-            F1::InverseSqrt => return each1(arch, to, a, |x| 1.0 / x.sqrt()),
-            F1::Sin => return elementary::sin(arch, to, a),
-            F1::Cos => return elementary::cos(arch, to, a),
-            F1::Tan => core_math::tan,
-            F1::Asin => core_math::asin,
-            F1::Acos => core_math::acos,
-            F1::Atan => core_math::atan,
-            F1::Sinh => core_math::sinh,
-            F1::Cosh => core_math::cosh,
-            F1::Tanh => return elementary::tanh(arch, to, a),
-            F1::Asinh => core_math::asinh,
-            F1::Acosh => core_math::acosh,
-            F1::Atanh => core_math::atanh,
-            F1::Exp => return elementary::exp(arch, to, a),
-            F1::Exp2 => return elementary::exp2(arch, to, a),
-            F1::Log => return elementary::log(arch, to, a),
-            F1::Log2 => return elementary::log2(arch, to, a),
-            _ => return float1(arch, op, to, a),
-        };
-        each1(arch, to, a, function);
+    fn elementary(arch: Arch, function: Math, to: &mut [Self], a: &[Self]) {
+        elementary::evaluate(arch, function, to, a);
     }
 }
 
@@ -157,27 +110,7 @@ impl Real for f32 {
         let (fraction, exponent) = f64::from(self).split();
         (fraction as Self, exponent)
     }
-    fn elementary(arch: Arch, op: F1, to: &mut [Self], a: &[Self]) {
-        let function = match op {
-            F1::InverseSqrt => core_math::rsqrtf,
-            F1::Sin => core_math::sinf,
-            F1::Cos => core_math::cosf,
-            F1::Tan => core_math::tanf,
-            F1::Asin => core_math::asinf,
-            F1::Acos => core_math::acosf,
-            F1::Atan => core_math::atanf,
-            F1::Sinh => core_math::sinhf,
-            F1::Cosh => core_math::coshf,
-            F1::Tanh => core_math::tanhf,
-            F1::Asinh => core_math::asinhf,
-            F1::Acosh => core_math::acoshf,
-            F1::Atanh => core_math::atanhf,
-            F1::Exp => core_math::expf,
-            F1::Exp2 => core_math::exp2f,
-            F1::Log => core_math::logf,
-            F1::Log2 => core_math::log2f,
-            _ => return float1(arch, op, to, a),
-        };
-        each1(arch, to, a, function);
+    fn elementary(arch: Arch, function: Math, to: &mut [Self], a: &[Self]) {
+        each1(arch, to, a, exact(function).1);
     }
 }
