@@ -1,5 +1,5 @@
-//! Solvers, all behind [`solve_from`]: argmin's Gauss–Newton, trust region, L-BFGS, Nelder–Mead and
-//! Brent, and MINPACK's Levenberg–Marquardt, which argmin has not.
+//! Solvers, all behind [`solve_from`]: Gauss–Newton; argmin's trust region, L-BFGS, Nelder–Mead and
+//! Brent; and MINPACK's Levenberg–Marquardt, which argmin has not.
 //!
 //! `auto` chooses
 //! - Levenberg–Marquardt for least squares, relative and Huber losses (Huber through
