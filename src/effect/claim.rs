@@ -10,7 +10,7 @@ use crate::measured::MeasuredError;
 pub const REPORT: &str = "striae report";
 
 /// What is found of a claim.
-pub type Check<E> = fn(&E) -> Result<Found, ClaimError>;
+pub type ClaimCheck<E> = fn(&E) -> Result<Found, ClaimError>;
 
 /// What a paper prints, and how it is checked against evidence `E` (the candidates of an effect, a
 /// picture of a scene).
@@ -28,7 +28,7 @@ pub struct Claim<E> {
     pub command: &'static str,
     /// What is found in this run.
     #[serde(skip, default = "not_checked")]
-    pub check: Check<E>,
+    pub check: ClaimCheck<E>,
 }
 
 fn report() -> &'static str {
@@ -36,7 +36,7 @@ fn report() -> &'static str {
 }
 
 /// Of a claim whose text alone is known.
-fn not_checked<E>() -> Check<E> {
+fn not_checked<E>() -> ClaimCheck<E> {
     |_| Err(ClaimError::new("there is no check"))
 }
 

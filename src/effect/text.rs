@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Deserializer};
 
-use super::claim::Check;
+use super::claim::ClaimCheck;
 use super::simulator::{Simulate, Simulator};
 use super::{
     Candidates, Claim, ClaimError, DomainError, Effect, Evaluate, Family, FormText, Goal, Law,
@@ -32,7 +32,7 @@ pub(crate) struct Functions<'a> {
     /// Violations of the laws.
     pub(crate) laws: &'a [(&'a str, Violation)],
     /// Checks of the claims.
-    pub(crate) claims: &'a [(&'a str, Check<Candidates>)],
+    pub(crate) claims: &'a [(&'a str, ClaimCheck<Candidates>)],
     /// Simulators.
     pub(crate) simulators: &'a [(&'a str, Simulate)],
     /// Families of measured tables.

@@ -11,13 +11,13 @@ use super::preparation::{USUAL, prepared};
 use super::surfaces::{Patch, holographic_paper};
 use super::table::{NORMAL, TableShape, of_surface, relative_l2};
 use super::{DiffractionError, sinusoid_order_power};
-use crate::effect::claim::Check;
+use crate::effect::claim::ClaimCheck;
 use crate::effect::{Candidates, ClaimError, Found};
 use crate::factor::Decomposition;
 use crate::measured::spectra::Spectra;
 
 /// Checks of the claims, by name.
-pub(super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+pub(super) const CLAIMS: &[(&str, ClaimCheck<Candidates>)] = &[
     ("prefactor", prefactor),
     ("one_wavelength", one_wavelength),
     ("jacobian", jacobian),

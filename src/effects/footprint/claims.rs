@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_2_SQRT_PI, PI, TAU};
 use super::line::{Line, Mean, errors};
 use super::pixels::Footprint;
 use super::reference::{coverage, response};
-use crate::effect::claim::Check;
+use crate::effect::claim::ClaimCheck;
 use crate::effect::{Candidates, ClaimError, Found};
 use crate::numeric::quadrature::GaussLegendre;
 
@@ -13,7 +13,7 @@ use crate::numeric::quadrature::GaussLegendre;
 const OFFSETS: u32 = 400;
 
 /// Checks of the claims, by name.
-pub(super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+pub(super) const CLAIMS: &[(&str, ClaimCheck<Candidates>)] = &[
     ("missing_pi", missing_pi),
     ("area_blend", area_blend),
     ("small_footprints", small_footprints),

@@ -1,6 +1,6 @@
 //! What is printed about these approximations, beside what is found.
 
-use crate::effect::claim::Check;
+use crate::effect::claim::ClaimCheck;
 use crate::effect::{Candidates, ClaimError, Found};
 use crate::effects::fresnel::reference::{Reflectance, conductor};
 
@@ -12,7 +12,7 @@ const TRANSPOSED_A: f64 = -5.55437;
 const HALF_STEP: f64 = 0.5 / 255.0;
 
 /// Checks of the claims, by name.
-pub(super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+pub(super) const CLAIMS: &[(&str, ClaimCheck<Candidates>)] = &[
     ("spherical_gaussian", spherical_gaussian),
     ("transposition", transposition),
     ("high_index", high_index),

@@ -9,12 +9,12 @@ use super::exhibits::{
     side_lobe_energy,
 };
 use super::surface::{Coherence, Directions, StraightScratch, mirror_amplitude};
-use crate::effect::claim::Check;
+use crate::effect::claim::ClaimCheck;
 use crate::effect::{Candidates, ClaimError, Found};
 use crate::numeric::statistics::{percentile, relative_l2};
 
 /// Checks of the claims, by name.
-pub(super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+pub(super) const CLAIMS: &[(&str, ClaimCheck<Candidates>)] = &[
     ("side_lobes", side_lobes),
     ("envelope", envelope),
     ("small_angles", small_angles),

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::reference::sine_integral;
-use crate::effect::claim::Check;
+use crate::effect::claim::ClaimCheck;
 use crate::effect::{Candidate, Candidates, ClaimError, Found};
 use crate::form::FormError;
 use crate::numeric::statistics::{mean, rms};
@@ -12,7 +12,7 @@ use crate::numeric::statistics::{mean, rms};
 const PUBLISHED: &str = "sine_integral/published";
 
 /// Checks of the claims, by name.
-pub(super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+pub(super) const CLAIMS: &[(&str, ClaimCheck<Candidates>)] = &[
     ("constants", constants),
     ("near_error", near_error),
     ("tail", tail),

@@ -5,14 +5,14 @@ use std::f64::consts::{PI, TAU};
 
 use super::lobe_errors::{Part, relative_errors, worst};
 use super::{MEDIUM, PRINTED, PRINTED_LARGE, sinc_squared_band};
-use crate::effect::claim::Check;
+use crate::effect::claim::ClaimCheck;
 use crate::effect::{Candidate, Candidates, ClaimError, Found};
 use crate::effects::sine_integral::sine_integral;
 use crate::form::FormError;
 use crate::numeric::statistics::largest;
 
 /// Checks of the claims, by name.
-pub(crate) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+pub(crate) const CLAIMS: &[(&str, ClaimCheck<Candidates>)] = &[
     ("normalisation", normalisation),
     ("whole_lobes", whole_lobes),
     ("half_lobes", half_lobes),

@@ -5,11 +5,11 @@ use std::f64::consts::{PI, TAU};
 use super::draws::Draw;
 use super::errors::{exact, light_of, named, relative_l2, single};
 use super::regions::REGIONS;
-use crate::effect::claim::Check;
+use crate::effect::claim::ClaimCheck;
 use crate::effect::{Candidates, ClaimError, Found};
 
 /// Checks of the claims, by name.
-pub(in super::super) const CLAIMS: &[(&str, Check<Candidates>)] = &[
+pub(in super::super) const CLAIMS: &[(&str, ClaimCheck<Candidates>)] = &[
     ("exponent", exponent),
     ("largest_deviation", largest_deviation),
     ("disc", disc),
