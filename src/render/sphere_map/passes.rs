@@ -94,12 +94,12 @@ pub fn convolved(
     blocks.iter().map(|blocks| Ok(map.with(&summed(&painter, &places, blocks)?))).collect()
 }
 
+/// First tap and layer of the blocks of a list.
+type Blocks = Vec<[f32; 2]>;
+
 /// The kernel of [`convolved`], and per list the first tap and the layer of each of its blocks: lists
 /// are padded to whole blocks, so that a block belongs to one list.
-fn convolution(
-    layers: &[SphereMap],
-    lists: &[Taps],
-) -> Result<(Kernel, Vec<Vec<[f32; 2]>>), RenderError> {
+fn convolution(layers: &[SphereMap], lists: &[Taps]) -> Result<(Kernel, Vec<Blocks>), RenderError> {
     let longest = lists.iter().map(Taps::count).max().unwrap_or(0);
     let per_evaluation = longest.clamp(1, MOST_TAPS);
     let mut taps = Taps::default();
