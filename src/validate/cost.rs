@@ -86,11 +86,11 @@ const ROUNDS: usize = 9;
 const LEAST_ROUNDS: usize = 3;
 /// Time on the CPU after which a form takes part in no further round, ns: a slow form's passes are
 /// long against the timer and the scheduler already.
-const ENOUGH_NS: f64 = 1.5e8;
+const ENOUGH_NS: f64 = 4e7;
 /// Time in which a reference is evaluated at further points, s.
 const REFERENCE_S: f64 = 0.1;
 /// Points per timed pass on the CPU.
-const POINTS: usize = 1 << 13;
+const POINTS: usize = 1 << 12;
 
 /// Times every candidate, on the device by `timing`, and every reference. The first candidate of each
 /// group is the baseline of the ratios in it.

@@ -159,6 +159,11 @@ impl FarField {
     /// approximation at normal exitance.
     pub fn evanescent(&self) -> f64 {
         let wavelength_um = 1e-3 * self.wavelength_nm;
-        self.share(|fx, fy| wavelength_um * fx.hypot(fy) > 1.0)
+        self.share(|fx, fy| {
+            let square = wavelength_um * wavelength_um * (fx * fx + fy * fy);
+            // The slow function where rounding could decide.
+            let near = (square - 1.0).abs() < 1e-12;
+            if near { wavelength_um * fx.hypot(fy) > 1.0 } else { square > 1.0 }
+        })
     }
 }

@@ -73,7 +73,7 @@ pub struct TimingOptions {
 
 impl TimingOptions {
     /// Rounds that are run however long they take.
-    pub const LEAST_ROUNDS: usize = 7;
+    pub const LEAST_ROUNDS: usize = 5;
 
     /// A third of the rounds and of the time: for costs beside something else that is shown.
     pub fn brief() -> Self {

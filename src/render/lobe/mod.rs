@@ -160,6 +160,6 @@ impl Shading for Lobe {
     }
 
     fn timing(&self) -> TimingOptions {
-        TimingOptions { points: 2048, ..TimingOptions::default() }
+        TimingOptions { points: 1024, ..TimingOptions::default() }
     }
 }

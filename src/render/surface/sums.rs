@@ -51,7 +51,7 @@ fn integral(map: &SphereMap, hit: &Hit, taps: &Taps) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for ([along, across, cell], weight) in taps.iter() {
         let (u, v) = (mirror[0] + along, mirror[1] + across);
-        let radius = u.hypot(v);
+        let radius = (u * u + v * v).sqrt();
         if radius >= 1.0 {
             continue;
         }

@@ -12,6 +12,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+// Not the platform's, which sets the rounding mode at each call.
+use libm::sincos;
+
 use crate::effect::DomainError;
 use crate::effects::area_light::band::sinc_squared_band;
 
@@ -106,7 +109,7 @@ impl Lobe {
         let mut panel = |piece: [f64; 2], from: f64, to: f64| {
             let (centre, half) = (0.5 * (piece[0] + piece[1]), 0.5 * (piece[1] - piece[0]));
             let value = |theta: f64| {
-                let (sine, cosine) = theta.sin_cos();
+                let (sine, cosine) = sincos(theta);
                 light.slice(centre + half * sine, &mut slice);
                 let exponent = self.ks * slice.xi_1;
                 let weight = half * cosine * slice.slope * (-exponent * exponent).exp();
@@ -151,8 +154,9 @@ impl Lobe {
     fn band(self, slice: &Slice) -> f64 {
         let interval = |&[from, to]: &[f64; 2]| {
             let (turn, half_turn) = (0.5 * (from + to), 0.5 * (to - from));
-            let centre = self.kw * (slice.radius * turn.cos() * half_turn.cos() + self.view_y);
-            let half = self.kw * slice.radius * turn.sin() * half_turn.sin();
+            let ((sin, cos), (half_sin, half_cos)) = (sincos(turn), sincos(half_turn));
+            let centre = self.kw * (slice.radius * cos * half_cos + self.view_y);
+            let half = self.kw * slice.radius * sin * half_sin;
             if half <= MOST_PERIODS * PI {
                 band_in_panels(centre, half)
             } else {
@@ -169,10 +173,10 @@ impl Lobe {
 fn band_in_panels(centre: f64, half: f64) -> f64 {
     let panels = (half / PI).ceil().max(1.0);
     let part = half / panels;
-    let nodes = GAUSS.map(|[x, weight]| (x * part, (0.5 * x * part).sin_cos(), weight));
+    let nodes = GAUSS.map(|[x, weight]| (x * part, sincos(0.5 * x * part), weight));
     let panel = |index: usize| {
         let middle = centre + part * (2.0 * index as f64 + 1.0 - panels);
-        let (sin, cos) = (0.5 * middle).sin_cos();
+        let (sin, cos) = sincos(0.5 * middle);
         let both = |&(offset, (sin_offset, cos_offset), weight): &(f64, (f64, f64), f64)| {
             let (even, odd) = (sin * cos_offset, cos * sin_offset);
             weight
