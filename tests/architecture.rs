@@ -90,9 +90,6 @@ fn the_check_sees_a_use_of_a_lower_module() {
     assert!(!used.contains("cli"));
 }
 
-/// Type names that still stand twice, one of the two in `src/render`.
-const UNTIL_RENAMED: [&str; 3] = ["Cell", "Picture", "Rendered"];
-
 /// Files by the type that a `pub` line of theirs defines; what is `pub` can be reached, since
 /// `unreachable_pub` warns of what cannot.
 fn public_types(files: &[PathBuf]) -> BTreeMap<String, Vec<PathBuf>> {
@@ -118,15 +115,7 @@ fn a_public_type_name_means_one_thing() {
     let types = public_types(&files);
     assert!(types.len() >= 200, "the public types were not found: {types:?}");
     let twice: BTreeMap<_, _> = types.iter().filter(|(_, files)| files.len() > 1).collect();
-    let faults: Vec<_> =
-        twice.iter().filter(|(name, _)| !UNTIL_RENAMED.contains(&name.as_str())).collect();
-    assert!(faults.is_empty(), "public types that share a name: {faults:#?}");
-    for name in UNTIL_RENAMED {
-        assert!(
-            twice.contains_key(&name.to_owned()),
-            "`{name}` means one thing now: take it out of UNTIL_RENAMED"
-        );
-    }
+    assert!(twice.is_empty(), "public types that share a name: {twice:#?}");
 }
 
 #[test]

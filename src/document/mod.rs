@@ -98,7 +98,7 @@ impl Page {
     }
 
     /// Its pictures, in order.
-    pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
+    pub fn pictures(&self) -> impl Iterator<Item = &Raster> {
         self.blocks().into_iter().filter_map(|block| match block {
             Block::Picture(picture) => Some(picture),
             _ => None,
@@ -181,7 +181,7 @@ pub enum Block {
     /// One or more plots under one caption.
     Figure(Figure),
     /// An image.
-    Picture(Picture),
+    Picture(Raster),
     /// A remark that must not be overlooked.
     Notice {
         /// What kind of remark.
@@ -210,8 +210,8 @@ impl<R> From<Tabled<R>> for Block {
     }
 }
 
-impl From<Picture> for Block {
-    fn from(picture: Picture) -> Self {
+impl From<Raster> for Block {
+    fn from(picture: Raster) -> Self {
         Self::Picture(picture)
     }
 }
@@ -281,7 +281,7 @@ impl Figure {
 
 /// An image under a caption: `figures/<file_stem>.png`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Picture {
+pub struct Raster {
     /// What is shown and what to see in it.
     pub caption: Inline,
     /// File name without extension, unique in the report: lower-case letters, digits, `-`, `_`.

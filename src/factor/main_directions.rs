@@ -47,7 +47,7 @@ pub struct MainDirections {
     /// Angles in h of the directions that become the x and the y axis, rad: of the four ways to
     /// name two lines, that with the least turning of the axes in sum.
     pub angles_rad: [f64; 2],
-    /// The same before the refinement.
+    /// Main directions before the refinement, rad.
     pub searched_rad: [f64; 2],
     /// What of ‖S‖² is beyond the first singular value: unaligned, as searched, and refined.
     pub beyond_rank_one: [f64; 3],

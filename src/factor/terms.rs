@@ -68,7 +68,7 @@ impl Terms {
         }
     }
 
-    /// The same kernel with orthogonal terms, largest first, shared evenly and signed by
+    /// This kernel with orthogonal terms, largest first, shared evenly and signed by
     /// [`orient`]: what the singular value decomposition of the product would give.
     ///
     /// # Errors

@@ -164,7 +164,7 @@ pub struct Outcome {
     pub residuals: Residuals,
     /// Residuals of the f32 constants evaluated in f32 over the same points.
     pub residuals_f32: Residuals,
-    /// The same beyond the fitted domain, by region name.
+    /// Residuals of the f64 constants beyond the fitted domain, by region name.
     pub outside: BTreeMap<String, Residuals>,
     /// One entry per start.
     pub starts: Vec<StartOutcome>,

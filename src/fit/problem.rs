@@ -61,24 +61,24 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The same problem with other factors and another loss.
+    /// This problem with other factors and another loss.
     pub fn with_loss(&self, loss: Loss, factors: Vec<f64>) -> Self {
         Self { loss, factors, ..self.fresh() }
     }
 
-    /// The same problem from `constants`, of which those in `pinned` do not vary.
+    /// This problem from `constants`, of which those in `pinned` do not vary.
     pub fn pinned(&self, constants: Vec<f64>, pinned: &[usize]) -> Self {
         let active = (0..constants.len()).filter(|i| !pinned.contains(i)).collect();
         Self { constants, active, ..self.fresh() }
     }
 
-    /// The same problem from `constants`, without bounds.
+    /// This problem from `constants`, without bounds.
     pub fn unbounded(&self, constants: Vec<f64>) -> Self {
         let transforms = vec![Transform::Identity; constants.len()];
         Self { constants, transforms, ..self.fresh() }
     }
 
-    /// The same problem, with nothing counted and nothing remembered.
+    /// This problem, with nothing counted and nothing remembered.
     pub fn fresh(&self) -> Self {
         Self {
             model: self.model,

@@ -96,7 +96,7 @@ impl Spectra {
         )
     }
 
-    /// The same files as they were when the crate was built.
+    /// The spectra of the repository as they were when the crate was built.
     ///
     /// # Errors
     /// None that a build with readable files has.

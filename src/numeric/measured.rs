@@ -21,7 +21,7 @@ impl<T> Measured<T> {
         }
     }
 
-    /// The same with the figure replaced by one of its parts.
+    /// This figure replaced by one of its parts, or the reason why there is none.
     pub fn map<U>(&self, part: impl FnOnce(&T) -> U) -> Measured<U> {
         match self {
             Self::Value(value) => Measured::Value(part(value)),

@@ -42,7 +42,7 @@ pub struct Picture {
 pub struct Metrics {
     /// Root mean square error over pixels and channels.
     pub rms: f64,
-    /// The same over the root mean square of the reference.
+    /// Root mean square error over the root mean square of the reference.
     pub relative_rms: f64,
     /// Mean error: mean of the test image less that of the reference.
     pub mean: f64,
@@ -155,7 +155,7 @@ impl PreparedScene {
         pictures.get(&key).map(Arc::clone)
     }
 
-    /// The same picture with a constant of its forms moved, or all of its values where it has none.
+    /// The picture of the approximation at a place with a constant of its forms moved, or all of its values where it has none.
     ///
     /// # Errors
     /// As [`PreparedScene::picture`].

@@ -120,7 +120,7 @@ impl GroundTruth {
         Self { values, ..Self::none() }.at(table, form)
     }
 
-    /// The same at the columns of `table` that `form` takes.
+    /// True values at the columns of `table` that `form` takes.
     fn at(mut self, table: &Table, form: &Form) -> Result<Self, ValidateError> {
         self.arguments = form.input_columns();
         let inputs = self.arguments.iter().map(|argument| Ok(column(table, argument)?.to_vec()));

@@ -28,7 +28,7 @@ impl Cells {
         (self.first + (i as f64 + 0.5)) * self.pitch
     }
 
-    /// The same cells in another unit.
+    /// These cells in another unit.
     pub fn scaled(&self, factor: f64) -> Self {
         Self { pitch: self.pitch * factor, ..*self }
     }

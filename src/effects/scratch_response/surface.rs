@@ -78,7 +78,7 @@ impl StraightScratch {
         Self { position_um, direction_rad: 0.0, begin_um, end_um, width_um, depth_um }
     }
 
-    /// The same without ends.
+    /// This scratch without ends.
     pub(super) fn infinite(offset_um: f64, width_um: f64, depth_um: f64) -> Self {
         Self::along_first_axis(width_um, depth_um, offset_um, [0.0; 2]).unbounded()
     }

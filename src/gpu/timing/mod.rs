@@ -75,9 +75,9 @@ impl TimingOptions {
     /// Rounds that are run however long they take.
     pub const LEAST_ROUNDS: usize = 5;
 
-    /// A third of the rounds and of the time: for costs beside something else that is shown.
+    /// A quarter of the rounds and less of the time: for costs beside something else that is shown.
     pub fn brief() -> Self {
-        Self { rounds: 21, budget_s: 0.7, ..Self::default() }
+        Self { rounds: 15, budget_s: 0.4, ..Self::default() }
     }
 }
 

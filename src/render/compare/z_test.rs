@@ -54,15 +54,15 @@ pub struct ZTest {
     /// p-value of that cell after Šidák's correction: the chance of a worst cell at least this far
     /// off, if the images differ by noise only.
     pub p: f64,
-    /// The worst cell.
-    pub worst: Cell,
+    /// The worst pool.
+    pub worst: Pool,
     /// Values or standard errors, in either image, that are not finite, or errors below 0.
     pub unusable: usize,
 }
 
-/// A cell, as the place to look at.
+/// A pool of pixels of one channel, as the place to look at.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize)]
-pub struct Cell {
+pub struct Pool {
     /// The channel.
     pub channel: String,
     /// Column of the first pixel.
@@ -178,10 +178,10 @@ impl Sum {
 }
 
 /// The cells of a channel: blocks, pooled where few pixels contribute, and the whole.
-fn cells(noise: &Noise, [width, height]: [usize; 2], pooling: Pooling) -> Vec<(Cell, Sum)> {
+fn cells(noise: &Noise, [width, height]: [usize; 2], pooling: Pooling) -> Vec<(Pool, Sum)> {
     let channel = &noise.tested.name;
     let cell = |(x, y): (usize, usize), sum: Sum| {
-        (Cell { channel: channel.clone(), x, y, pixels: sum.pixels }, sum)
+        (Pool { channel: channel.clone(), x, y, pixels: sum.pixels }, sum)
     };
     let enough = |sum: &Sum| sum.contributors() >= pooling.contributors as f64;
     let mut cells = Vec::new();

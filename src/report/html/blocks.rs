@@ -3,7 +3,7 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::tables::{table, unfolded};
-use crate::document::{Block, Figure, Inline, Picture, Span};
+use crate::document::{Block, Figure, Inline, Raster, Span};
 use crate::report::plot::{Drawing, draw};
 
 /// Text with its markup.
@@ -73,7 +73,7 @@ fn figure(figure: &Figure, drawings: &mut Vec<(String, Drawing)>) -> Markup {
     markup
 }
 
-fn picture(picture: &Picture) -> Markup {
+fn picture(picture: &Raster) -> Markup {
     let file = format!("figures/{}.png", picture.file_stem);
     html! {
         figure id=(picture.file_stem) {

@@ -6,5 +6,5 @@ mod shell;
 mod site;
 mod tables;
 
-pub use shell::{Rendered, render_page};
+pub use shell::{PageFiles, render_page};
 pub use site::{SiteError, Written, write_site};

@@ -11,7 +11,7 @@ const STYLE: &str = include_str!("page.css");
 
 /// A page, written, with the figures that it holds.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rendered {
+pub struct PageFiles {
     /// The whole HTML document.
     pub html: String,
     /// File stem and drawing of every figure, in order.
@@ -20,7 +20,7 @@ pub struct Rendered {
 
 /// Writes one page. `pages` are all pages of the report, for the links between them; the page with
 /// the slug `index` lists the others with their summaries.
-pub fn render_page(page: &Page, pages: &[Page], provenance: &Colophon) -> Rendered {
+pub fn render_page(page: &Page, pages: &[Page], provenance: &Colophon) -> PageFiles {
     let mut drawings = Vec::new();
     let mut sections = Vec::new();
     for (index, section) in page.sections.iter().enumerate() {
@@ -73,7 +73,7 @@ pub fn render_page(page: &Page, pages: &[Page], provenance: &Colophon) -> Render
             }
         }
     };
-    Rendered { html: markup.into_string() + "\n", drawings }
+    PageFiles { html: markup.into_string() + "\n", drawings }
 }
 
 /// Links between the pages.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::gates;
 use crate::document::plot::{Plot, PlotAxis};
 use crate::document::{
-    Block, Cell, Figure, Inline, NoticeLevel, Page, Picture, PrintedTable, Section,
+    Block, Cell, Figure, Inline, NoticeLevel, Page, PrintedTable, Raster, Section,
 };
 use crate::effect::Finding;
 use crate::gate::Judgement;
@@ -64,7 +64,7 @@ fn section(scene: &Scene, rendered: &Rendered) -> Result<Section, RenderError> {
         rendered.approximations.iter().map(|found| found.name.as_str()).collect();
     let (sheet, scale) = comparison(rendered, exposure)?;
     let beside = if rendered.monte_carlo.is_some() { ", Monte Carlo beside it" } else { "" };
-    let section = section.block(Picture {
+    let section = section.block(Raster {
         caption: format!(
             "Left, from top to bottom: reference{beside}, {}. Right: the error of each relative to the \
              root mean square of the reference, black for 0 to pale for {scale} and above.",
