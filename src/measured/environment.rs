@@ -48,7 +48,7 @@ impl LatLong {
         [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
     }
 
-    /// Continuous texel coordinates (x, y) of a direction of length 1e-150 to 1e150: the inverse of
+    /// Continuous texel coordinates (x, y) of a direction of any length but 0: the inverse of
     /// [`LatLong::direction`], x in [0, width).
     pub fn coordinates(&self, direction: [f64; 3]) -> (f64, f64) {
         let (x, y) = self.unwrapped(direction);
@@ -62,10 +62,13 @@ impl LatLong {
     pub(crate) fn unwrapped(&self, [x, y, z]: [f64; 3]) -> (f64, f64) {
         // Not the platform's atan2: the same everywhere, and glibc's sets the rounding mode at each call.
         let column = libm::atan2(y, x) * self.width as f64 / (2.0 * PI);
-        (column, libm::atan2((x * x + y * y).sqrt(), z) * self.height as f64 / PI)
+        let square = x * x + y * y;
+        // The slow function where a square leaves the normal numbers.
+        let across = if (1e-290..1e290).contains(&square) { square.sqrt() } else { x.hypot(y) };
+        (column, libm::atan2(across, z) * self.height as f64 / PI)
     }
 
-    /// The four texels around a direction of length 1e-150 to 1e150, by their number row by row, with
+    /// The four texels around a direction of any length but 0, by their number row by row, with
     /// their bilinear shares; around in azimuth and on over the poles.
     pub fn around(&self, direction: [f64; 3]) -> [(usize, f64); 4] {
         let (x, y) = self.unwrapped(direction);

@@ -215,7 +215,12 @@ pub fn render<'d>(
         details: shading.details()?,
         backend: match reused {
             0 => backend.description(),
-            _ => format!("{}; {reused} on {}", backend.description(), Backend::Lanes.description()),
+            _ => format!(
+                "{}; {reused} of {} as gates judged them on {}",
+                backend.description(),
+                scene.approximations.len(),
+                Backend::Lanes.description()
+            ),
         },
         reference: reference.clone(),
         monte_carlo,

@@ -71,10 +71,15 @@ fn directions_and_coordinates_are_inverse() -> Outcome {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     for _ in 0..1000 {
         let (x, y) = (16.0 * uniform(&mut random), 8.0 * uniform(&mut random));
-        let direction = map.layout().direction(x, y).map(|c| 3.0 * c);
-        let (got_x, got_y) = map.layout().coordinates(direction);
-        // Measured: 1.8e-15.
-        assert!((got_x - x).abs() < 1e-13 && (got_y - y).abs() < 1e-13, "{x} {y}: {got_x} {got_y}");
+        for length in [3.0, 1e-200, 1e200] {
+            let direction = map.layout().direction(x, y).map(|c| length * c);
+            let (got_x, got_y) = map.layout().coordinates(direction);
+            // Measured: 1.8e-15.
+            assert!(
+                (got_x - x).abs() < 1e-13 && (got_y - y).abs() < 1e-13,
+                "{x} {y}: {got_x} {got_y}"
+            );
+        }
     }
     let (x, _) = map.layout().coordinates([1.0, -1e-300, 0.0]);
     assert!((0.0..16.0).contains(&x), "{x}");

@@ -23,7 +23,7 @@ use super::shading::{Columns, Details, Moved, Sampler, Shader, Shading, rgb_colu
 use super::sphere_map::{AzimuthalOperator, SphereMap, Taps, lookup};
 use super::times::TimedPass;
 use super::view::Camera;
-use crate::document::{Block, Cell, PrintedColumn, PrintedTable};
+use crate::document::{Block, PrintedTable};
 use crate::gpu::TimingOptions;
 use crate::measured::environment::Environment;
 use crate::measured::spectra::Spectra;
@@ -271,11 +271,9 @@ impl Shading for Surface {
              eq. 3 at 24 azimuths per angle of incidence, on a plane.",
             &by_angle,
         )
-        .column(PrintedColumn::number("incidence", "°"), |of| Cell::number(of.angle_deg, 3))
-        .column(PrintedColumn::number("relative RMS", "1"), |of| Cell::number(of.relative_rms, 3))
-        .column(PrintedColumn::number("mean over that of eq. 3", "1"), |of| {
-            Cell::number(of.mean_ratio, 3)
-        });
+        .number("incidence", "°", |of| of.angle_deg)
+        .number("relative RMS", "1", |of| of.relative_rms)
+        .number("mean over that of eq. 3", "1", |of| of.mean_ratio);
         let text = format!(
             "The axes of the factors lie along {first:.2}° and {second:.2}° of the table. Of a uniform \
              environment the kernel returns {r:.3}, {g:.3}, {b:.3} in R, G, B."

@@ -1,7 +1,7 @@
 //! Draws beside the distributions that they should have.
 
 use super::bare;
-use crate::document::{Cell, PrintedColumn, PrintedTable, Section, Verdict, number};
+use crate::document::{Cell, PrintedTable, Section, Verdict, number};
 use crate::numeric::measured::Measured;
 use crate::validate::draws::{Draws, DrawsStudy, SIGNIFICANCE};
 use crate::validate::study::Study;
@@ -25,32 +25,20 @@ pub fn draws_section(study: &Study) -> Option<Section> {
         Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
     };
     let table = PrintedTable::over(caption, &rows)
-        .column(PrintedColumn::code("fit"), |(fit, ..)| Cell::text(*fit))
-        .column(PrintedColumn::text("region"), |(_, region, _)| Cell::text(*region))
-        .column(PrintedColumn::number("points", "1"), |(.., of)| Cell::count(of.f32.points.len()))
-        .column(PrintedColumn::number("draws", "1"), |(.., of)| {
-            Cell::count(of.f32.points.iter().map(|point| point.draws).sum())
+        .code("fit", |(fit, ..)| *fit)
+        .text("region", |(_, region, _)| *region)
+        .number("points", "1", |(.., of)| of.f32.points.len())
+        .number("draws", "1", |(.., of)| {
+            of.f32.points.iter().map(|point| point.draws).sum::<usize>()
         })
-        .column(PrintedColumn::number("max |mean z|", "1"), |(.., of)| {
-            Cell::number(of.f32.worst_mean_z, 4)
-        })
-        .column(PrintedColumn::number("its corrected p", "1"), |(.., of)| {
-            Cell::number(of.f32.mean_p, 3)
-        })
-        .column(PrintedColumn::number("max variance ratio", "1"), |(.., of)| {
-            Cell::number(of.f32.worst_variance_ratio, 4)
-        })
-        .column(PrintedColumn::number("smallest p of χ²", "1"), |(.., of)| {
-            Cell::number(of.f32.least_p, 3)
-        })
-        .column(PrintedColumn::number("its limit", "1"), |(.., of)| {
-            Cell::number(of.f32.sidak_limit, 3)
-        })
-        .column(PrintedColumn::number("corrected", "1"), |(.., of)| {
-            Cell::number(of.f32.chi_squared_p, 3)
-        })
-        .column(PrintedColumn::verdict("f32"), |(.., of)| verdict(&of.f32))
-        .column(PrintedColumn::verdict("device"), |(.., of)| on_device(of))
+        .number("max |mean z|", "1", |(.., of)| (of.f32.worst_mean_z, 4))
+        .number("its corrected p", "1", |(.., of)| of.f32.mean_p)
+        .number("max variance ratio", "1", |(.., of)| (of.f32.worst_variance_ratio, 4))
+        .number("smallest p of χ²", "1", |(.., of)| of.f32.least_p)
+        .number("its limit", "1", |(.., of)| of.f32.sidak_limit)
+        .number("corrected", "1", |(.., of)| of.f32.chi_squared_p)
+        .verdict("f32", |(.., of)| verdict(&of.f32))
+        .verdict("device", |(.., of)| on_device(of))
         .table();
     (!rows.is_empty()).then(|| Section::new("Draws").block(table))
 }
