@@ -5,7 +5,7 @@ use super::error::{GpuError, NoDevice};
 use super::pipelines::{PipelineCount, Pipelines};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Longest wait for one submission, seconds. Chunks of [`super::DeviceKernel::evaluate`] take
 /// milliseconds; a kernel that needs longer than this hangs.
@@ -138,9 +138,18 @@ impl Device {
             let send = move |result| drop(sender.send(result));
             buffer.map_async(wgpu::MapMode::Read, 0..bytes, send);
         })?;
-        self.wait()?;
+        let start = Instant::now();
+        let mapped = loop {
+            self.wait()?;
+            // A device that has finished may hand the buffer over in a later poll, or in that of another
+            // thread.
+            match outcome.recv_timeout(Duration::from_millis(1)) {
+                Ok(mapped) => break mapped,
+                Err(_) if start.elapsed().as_secs() < WAIT_SECONDS => {}
+                Err(_) => return Err(GpuError::TimedOut(WAIT_SECONDS)),
+            }
+        };
         let failed = |error: &dyn std::fmt::Display| GpuError::Device(error.to_string());
-        let mapped = outcome.try_recv().map_err(|_| failed(&"a buffer was not mapped"))?;
         mapped.map_err(|error| failed(&error))?;
         let copy = buffer.get_mapped_range(0..bytes).map_err(|error| failed(&error))?.to_vec();
         buffer.unmap();

@@ -19,7 +19,7 @@ use crate::numeric::measured::Measured;
 use crate::project::{Project, Subject};
 use crate::render::Scenes;
 use crate::validate::ValidateError;
-use crate::validate::cost::{Costs, costs};
+use crate::validate::cost::{Costs, Timed, TimedReference, costs};
 use crate::validate::regions::Atlas;
 use crate::validate::study::{Study, study};
 use crate::validate::timed::{timed, timed_references};
@@ -54,6 +54,16 @@ pub struct Studied {
     pub costs: Costs,
     /// Held-out members of each family; none where the project has no folder of measured data.
     pub members: Vec<Vec<Member>>,
+}
+
+/// An effect, measured but for its costs, with what is timed.
+struct Judged {
+    effect: &'static Effect,
+    subjects: Vec<Subject>,
+    study: Study,
+    forms: Vec<Vec<Timed>>,
+    references: Vec<TimedReference>,
+    members: Vec<Vec<Member>>,
 }
 
 /// Why a run ended.
@@ -169,22 +179,24 @@ impl Run {
         let subjects = self.project.subjects()?;
         let all = subjects.iter().flat_map(|subject| &subject.candidates).cloned();
         let candidates: Candidates = all.map(std::sync::Arc::new).collect();
-        effects
-            .iter()
+        let judged: Vec<Result<Judged, RunError>> = effects
+            .par_iter()
             .map(|effect| {
                 watch(effect.name);
                 let own = subjects.iter().filter(|subject| subject.is_of(effect.name)).cloned();
-                self.measure(effect, own.collect(), &candidates)
+                self.judge(effect, own.collect(), &candidates)
             })
-            .collect()
+            .collect();
+        // Nothing else runs beside what is timed.
+        judged.into_iter().map(|judged| self.with_costs(judged?)).collect()
     }
 
-    fn measure(
+    fn judge(
         &self,
         effect: &'static Effect,
         subjects: Vec<Subject>,
         candidates: &Candidates,
-    ) -> Result<Studied, RunError> {
+    ) -> Result<Judged, RunError> {
         // A project of the user's own may have no measured data: its families are not measured.
         let families = match self.project.data().is_dir() {
             true => effect.families,
@@ -197,10 +209,16 @@ impl Run {
                     .map_err(|source| RunError::Family { family: family.name, source })
             })
             .collect::<Result<Vec<_>, _>>()?;
-        let Self { project, atlas, device, timing, .. } = self;
+        let Self { project, atlas, device, .. } = self;
         let study = study(effect, &subjects, &members, candidates, project, atlas, device)?;
-        let groups = timed(effect, &subjects, &members, project, atlas)?;
-        let costs = costs(effect.name, &groups, &timed_references(effect, atlas)?, device, timing)?;
+        let forms = timed(effect, &subjects, &members, project, atlas)?;
+        let references = timed_references(effect, atlas)?;
+        Ok(Judged { effect, subjects, study, forms, references, members })
+    }
+
+    fn with_costs(&self, judged: Judged) -> Result<Studied, RunError> {
+        let Judged { effect, subjects, study, forms, references, members } = judged;
+        let costs = costs(effect.name, &forms, &references, &self.device, &self.timing)?;
         Ok(Studied { effect, subjects, study, costs, members })
     }
 }

@@ -1,5 +1,7 @@
 //! A study of one effect: every candidate of it on every region, its laws, its parity and its cost.
 
+use rayon::prelude::*;
+
 use crate::document::{NoticeLevel, Section};
 use crate::effect::claim::check;
 use crate::effect::{
@@ -86,39 +88,52 @@ pub fn study(
     atlas: &Atlas,
     device: &Measured<Device>,
 ) -> Result<Study, ValidateError> {
-    let mut found = Study {
-        effect: effect.name.to_owned(),
-        candidates: Vec::new(),
-        families: Vec::new(),
-        laws: Vec::new(),
-        findings: check(effect.claims, candidates),
-        exhibits: exhibits(effect, candidates)?,
-    };
-    for subject in subjects {
-        let reference = match &subject.approximates {
-            Approximated::Reference(name) => project.registry().reference(name),
-            Approximated::Family(_) | Approximated::Table => None,
-        };
-        if let Some(candidate) = subject.candidates.first() {
-            let reference = registered_reference(project, subject);
-            found.laws.extend(judge(effect, &subject.form, reference, candidate));
-        }
-        if let (Some((_, reference)), Some(candidate)) = (reference, subject.candidates.first()) {
-            let grounds = atlas.grounds(effect, reference)?;
-            found.candidates.push(one(subject, candidate, reference, &grounds, device)?);
-        }
+    let ((findings, exhibits), judged) = rayon::join(
+        || rayon::join(|| check(effect.claims, candidates), || exhibits(effect, candidates)),
+        || {
+            let judge = |subject| judge_subject(effect, subject, project, atlas, device);
+            subjects.par_iter().map(judge).collect::<Vec<_>>()
+        },
+    );
+    let (mut laws, mut studies) = (Vec::new(), Vec::new());
+    for judged in judged {
+        let (verdicts, study) = judged?;
+        laws.extend(verdicts);
+        studies.extend(study);
     }
-    for (family, members) in effect.families.iter().zip(members) {
+    let families = effect.families.iter().zip(members).map(|(family, members)| {
         let over = Approximated::Family(family.name.to_owned());
         let forms = subjects
-            .iter()
+            .par_iter()
             .filter(|subject| subject.approximates == over)
             .map(|subject| judge_family(subject, members))
             .collect::<Result<_, _>>()?;
-        let spreads = spreads(members);
-        found.families.push(FamilyStudy { family: family.name.to_owned(), forms, spreads });
-    }
-    Ok(found)
+        Ok(FamilyStudy { family: family.name.to_owned(), forms, spreads: spreads(members) })
+    });
+    Ok(Study {
+        effect: effect.name.to_owned(),
+        candidates: studies,
+        families: families.collect::<Result<_, ValidateError>>()?,
+        laws,
+        findings,
+        exhibits: exhibits?,
+    })
+}
+
+/// The laws that a subject's first candidate stands to, and its study, if it approximates a reference.
+fn judge_subject(
+    effect: &Effect,
+    subject: &Subject,
+    project: &Project,
+    atlas: &Atlas,
+    device: &Measured<Device>,
+) -> Result<(Vec<LawVerdict>, Option<CandidateStudy>), ValidateError> {
+    let Some(candidate) = subject.candidates.first() else { return Ok((Vec::new(), None)) };
+    let laws = judge(effect, &subject.form, registered_reference(project, subject), candidate);
+    let Approximated::Reference(name) = &subject.approximates else { return Ok((laws, None)) };
+    let Some((_, reference)) = project.registry().reference(name) else { return Ok((laws, None)) };
+    let grounds = atlas.grounds(effect, reference)?;
+    Ok((laws, Some(one(subject, candidate, reference, &grounds, device)?)))
 }
 
 /// What the effect shows beyond its candidates; where the project lacks a fit or the data for it, that
