@@ -76,7 +76,9 @@ pub use backend::{Backend, Kernel};
 pub use error::RenderError;
 pub use monte_carlo::Sampled;
 pub use prepared::{Metrics, Picture, PreparedScene, Scenes};
-pub use rendered::{RenderOptions, Rendered, RenderedApproximation, RenderedMonteCarlo, render};
+pub use rendered::{
+    RenderOptions, Rendered, RenderedApproximation, RenderedMonteCarlo, draw, render,
+};
 pub use scene::Scene;
 pub use shading::Shading;
 pub use tiles::Event;

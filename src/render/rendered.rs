@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::backend::Backend;
@@ -105,11 +106,32 @@ pub struct RenderOptions<'d> {
     pub budget_s: f64,
 }
 
+impl RenderOptions<'_> {
+    /// A picture that is not drawn again.
+    fn reused(&self, prepared: &PreparedScene, at: usize) -> Option<Arc<Picture>> {
+        self.reuse.then(|| prepared.drawn_on_lanes(at)).flatten()
+    }
+}
+
 impl<'d> From<Backend<'d>> for RenderOptions<'d> {
     /// Everything drawn there, and timed for 2 s.
     fn from(backend: Backend<'d>) -> Self {
         Self { backend, reuse: false, budget_s: 2.0 }
     }
+}
+
+/// Draws the approximations of a scene side by side, so that [`render`] finds them drawn.
+///
+/// # Errors
+/// [`RenderError`] if a form cannot be evaluated, or the device fails.
+pub fn draw(prepared: &PreparedScene, options: RenderOptions<'_>) -> Result<(), RenderError> {
+    let drawn = (0..prepared.scene.approximations.len()).into_par_iter().map(|at| {
+        match options.reused(prepared, at) {
+            Some(_) => Ok(()),
+            None => prepared.picture(at, options.backend, &mut |_| ()).map(drop),
+        }
+    });
+    drawn.collect::<Vec<_>>().into_iter().collect()
 }
 
 /// Renders the reference, Monte Carlo and the approximations of a scene, compares and times them;
@@ -123,7 +145,8 @@ pub fn render<'d>(
     options: impl Into<RenderOptions<'d>>,
     watch: &mut dyn FnMut(Event<'_>),
 ) -> Result<Rendered, RenderError> {
-    let RenderOptions { backend, reuse, budget_s } = options.into();
+    let options = options.into();
+    let RenderOptions { backend, budget_s, .. } = options;
     let PreparedScene { scene, shading, .. } = prepared;
     let exposure = scene.view.exposure;
     let exact = match scene.reference {
@@ -145,7 +168,7 @@ pub fn render<'d>(
     let mut pictures = Vec::with_capacity(scene.approximations.len());
     let mut reused = 0;
     for (at, approximation) in scene.approximations.iter().enumerate() {
-        let known = reuse.then(|| prepared.drawn_on_lanes(at)).flatten();
+        let known = options.reused(prepared, at);
         reused += usize::from(known.is_some());
         let picture = known.map_or_else(|| prepared.picture(at, backend, watch), Ok)?;
         watch(Event::Image { name: &approximation.name, image: &picture.image, whole: true });

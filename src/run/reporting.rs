@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::{Run, RunError, Studied, write_accuracy};
 use crate::document::{Colophon, Page};
 use crate::gate::{Check, Judgement, SCENES};
-use crate::render::{Backend, RenderOptions, render};
+use crate::render::{Backend, RenderOptions, draw, render};
 use crate::report::html::{Written, write_site};
 use crate::report::pages::{EffectEvidence, SceneEvidence, effect_page, index_page, scenes_page};
 
@@ -101,17 +103,23 @@ impl Run {
             reuse: device.is_some_and(|device| device.description().is_software()),
             budget_s: self.timing.budget_s,
         };
-        let scenes = self.project.scenes()?.into_iter();
-        scenes
-            .map(|path| {
-                let shown = path.display().to_string();
-                watch(&shown);
-                let failed =
-                    |source| RunError::Scene { scene: shown.clone(), source: Box::new(source) };
-                let scene = self.scenes.prepared(&path, &self.project).map_err(failed)?;
-                let rendered = render(&scene, options, &mut |_| ()).map_err(failed)?;
-                Ok(SceneEvidence { scene, rendered })
-            })
-            .collect()
+        let paths = self.project.scenes()?;
+        let failed = |path: &Path, source| RunError::Scene {
+            scene: path.display().to_string(),
+            source: Box::new(source),
+        };
+        let prepared = paths.par_iter().map(|path| {
+            watch(&path.display().to_string());
+            let scene = self.scenes.prepared(path, &self.project)?;
+            draw(&scene, options).map(|()| scene)
+        });
+        // Nothing else runs beside what is timed.
+        let drawn = prepared.collect::<Vec<_>>().into_iter().zip(&paths).map(|(scene, path)| {
+            let scene = scene.map_err(|source| failed(path, source))?;
+            let rendered =
+                render(&scene, options, &mut |_| ()).map_err(|source| failed(path, source))?;
+            Ok(SceneEvidence { scene, rendered })
+        });
+        drawn.collect()
     }
 }
