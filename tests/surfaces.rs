@@ -3,14 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
+use striae::effects::diffraction::{
+    self, Channels, Grating, NORMAL, OrderGrowth, Patch, Preparation, Profile, TableShape, USUAL,
+    Window, grating, of_surface, prepared, rectangular_order_power,
+};
 use striae::factor::{Alignment, Decomposition};
 use striae::form::{DataTable, Form};
 use striae::gpu::Device;
+use striae::measured::spectra::Spectra;
 use striae::project::Project;
 use striae::registry::Registry;
 use striae::render::geometry::{Frame, Hit};
 use striae::render::sphere_map::{AngularKernel, AzimuthalOperator, SphereMap, convolved};
-use striae::render::surface::{Sums, integrals, table_taps};
+use striae::render::surface::{Orders, Sums, integrals};
 use striae::render::{self, Backend, PreparedScene, Scene};
 use striae::table::{Axis, Grid, GridChannel};
 
@@ -44,6 +49,10 @@ fn table(count: usize) -> Grid {
     }
 }
 
+fn orders(table: &Grid) -> Orders {
+    Orders::of_table(table, OrderGrowth::unknown())
+}
+
 /// Low harmonics: what the interpolation of a small map can follow.
 fn smooth_map(width: usize) -> SphereMap {
     let height = width / 2;
@@ -68,7 +77,7 @@ fn relative_rms(test: &[f32], reference: &[f32]) -> f64 {
 /// between them, wherever no move along a meridian crosses a pole.
 #[test]
 fn two_passes_at_full_rank_are_the_whole_kernel() {
-    let kernel = AngularKernel::new(&table(33), &Alignment::identity());
+    let kernel = AngularKernel::new(&table(33), &Alignment::identity(), &OrderGrowth::unknown());
     let all = Decomposition::of(&kernel.grid).and_then(|d| d.low_rank(33)).expect("factors");
     let errors = [32, 64].map(|width| {
         let map = smooth_map(width);
@@ -95,7 +104,7 @@ fn two_passes_at_full_rank_are_the_whole_kernel() {
 /// A uniform environment gives the albedo of the kernel everywhere.
 #[test]
 fn a_uniform_environment_gives_the_albedo() {
-    let kernel = AngularKernel::new(&table(33), &Alignment::identity());
+    let kernel = AngularKernel::new(&table(33), &Alignment::identity(), &OrderGrowth::unknown());
     let map = SphereMap { width: 32, height: 16, rgb: vec![1.0; 3 * 32 * 16] };
     let found = AzimuthalOperator::new(&kernel.taps(), 32, 16).apply(&map);
     let albedo = kernel.albedo();
@@ -103,6 +112,112 @@ fn a_uniform_environment_gives_the_albedo() {
         for (value, expected) in texel.iter().zip(albedo) {
             assert!((f64::from(*value) / expected - 1.0).abs() < 1e-5, "{value} for {expected}");
         }
+    }
+}
+
+fn simulated(settings: &[&str]) -> (Grid, OrderGrowth) {
+    let settings = diffraction::settings(settings).expect("settings");
+    let spectra = Spectra::built_in().expect("spectra");
+    diffraction::simulated_table(&settings, &spectra).expect("a table")
+}
+
+/// What is seen in the plane of x and the normal, `degrees` off it.
+fn seen_at(degrees: f64) -> Hit {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    Hit::of_directions(Frame::of(Vector3::z(), Vector3::x()), Vector3::new(sin, 0.0, cos))
+}
+
+const ANGLES_DEG: [f64; 7] = [0.0, 20.0, 45.0, 51.7, 60.0, 75.0, 88.0];
+
+/// A law, at every size and angle: what a table holds comes back from a white sky, from the sum at a
+/// point and from the convolution.
+#[test]
+fn a_white_sky_comes_back_as_the_table_says() {
+    let white = SphereMap { width: 32, height: 16, rgb: vec![1.0; 3 * 32 * 16] };
+    for size in [33, 64, 128, 129] {
+        let tables = [
+            vec!["surface=sinusoid", "amplitude_nm=0"],
+            vec!["surface=sinusoid", "pitch_um=1", "extent=2"],
+            vec!["surface=holographic_paper"],
+            vec!["surface=compact_disc", "extent=2"],
+            vec!["surface=display", "pitch_um=8", "side_um=204.8", "extent=0.5"],
+        ];
+        for (at, mut settings) in tables.into_iter().enumerate() {
+            let size = format!("size={size}");
+            settings.push(&size);
+            let (table, growth) = simulated(&settings);
+            let orders = Orders::of_table(&table, growth.clone());
+            for total in orders.total {
+                assert!(
+                    total < 1.0 + 1e-6 && (at > 1 || total > 1.0 - 1e-3),
+                    "{settings:?}: {total}"
+                );
+            }
+            for angle in ANGLES_DEG {
+                let found = integrals(&white, &[seen_at(angle)], &orders)[0];
+                for (found, total) in found.iter().zip(orders.total) {
+                    assert!((found - total).abs() < 1e-6, "{settings:?} at {angle}°: {found}");
+                }
+            }
+            let kernel = AngularKernel::new(&table, &Alignment::identity(), &growth);
+            for (found, total) in kernel.albedo().iter().zip(orders.total) {
+                assert!((found - total).abs() < 1e-5, "{settings:?}: {found} for {total}");
+            }
+        }
+    }
+}
+
+/// Orders at an oblique view lie where the grating equation says, with the power that their own w gives
+/// them, and the mirror has the rest of what is not beyond the horizon.
+#[test]
+fn orders_have_their_own_w() {
+    let (nm, pitch_um, depth_nm) = (550.0, 2.0, 120.0);
+    let profile = Profile::Rectangle { depth_nm, duty: 0.5 };
+    let patch = Patch { samples: 2048, side_um: 64.0, line: false };
+    let heights = grating(Grating { period_um: pitch_um, angle: 0.0, profile }, patch);
+    let whole = Preparation { window: Window::Rectangle, ..USUAL };
+    let surface = prepared(&heights, whole).expect("a surface");
+    let shape = TableShape {
+        size: [257, 257],
+        extent: 1.0,
+        wavelengths_nm: vec![nm],
+        channels: Channels::Spectral,
+    };
+    let spectra = Spectra::built_in().expect("spectra");
+    let mut table = of_surface(&surface, &shape, 1, NORMAL, &spectra).expect("a table").grid;
+    let green = table.channels[0].values.clone();
+    table.channels = ["R", "G", "B"].map(|c| GridChannel::new(c, "sr^-1", green.clone())).into();
+    let growth = OrderGrowth::of_surface(&surface, &[nm], &[[1.0; 3]], NORMAL);
+    let orders = Orders::of_table(&table, growth);
+    let step = 1e-3 * nm / pitch_um;
+    for angle in [0.0, 25.0, 65.0] {
+        let hit = seen_at(angle);
+        let (u_o, mu_o) = (hit.reflection.x, hit.reflection.z);
+        let mut others = 0.0;
+        for order in -3..=3_i32 {
+            let u = u_o + f64::from(order) * step;
+            if u.abs() > 0.99 || order == 0 {
+                continue;
+            }
+            // Light from a strip around the order alone.
+            let (width, height) = (1024, 512);
+            let place = |at: usize| {
+                let azimuth = std::f64::consts::TAU * ((at % width) as f64 + 0.5) / width as f64;
+                let polar = std::f64::consts::PI * ((at / width) as f64 + 0.5) / height as f64;
+                polar.sin() * azimuth.cos()
+            };
+            let lit = |at: usize| f32::from((place(at) - u).abs() < 0.45 * step);
+            let rgb = (0..width * height).flat_map(|at| [lit(at); 3]).collect();
+            let found = integrals(&SphereMap { width, height, rgb }, &[hit], &orders)[0][1];
+            let w = mu_o + (1.0 - u * u).sqrt();
+            let phase = std::f64::consts::TAU / nm * w * depth_nm;
+            let power = rectangular_order_power(order.unsigned_abs(), 0.5, phase);
+            let power = power.expect("in the domain");
+            others += power;
+            // Measured 2e-4 at most.
+            assert!((found - power).abs() < 1e-3, "{order} at {angle}°: {found} for {power}");
+        }
+        assert!(others < 1.0);
     }
 }
 
@@ -119,12 +234,12 @@ fn hits() -> Vec<Hit> {
         .collect()
 }
 
-/// Along the normal, n = ω_o = r_v holds, and the convolution is eq. 3.
+/// Along the normal, n = ω_o = r_v holds, and the convolution is the sum at a point.
 #[test]
 fn at_normal_incidence_the_convolution_is_the_integral() {
     let table = table(65);
     let map = smooth_map(128);
-    let kernel = AngularKernel::new(&table, &Alignment::identity());
+    let kernel = AngularKernel::new(&table, &Alignment::identity(), &OrderGrowth::unknown());
     let convolved = AzimuthalOperator::new(&kernel.taps(), 128, 64).apply(&map);
     // At the centre of a texel: its frame is that of the map.
     let (column, row) = (37, 20);
@@ -134,7 +249,7 @@ fn at_normal_incidence_the_convolution_is_the_integral() {
     let normal = Vector3::new(sin * azimuth.cos(), sin * azimuth.sin(), cos);
     let along = Vector3::new(-azimuth.sin(), azimuth.cos(), 0.0);
     let hit = Hit::of_directions(Frame::of(normal, along), normal);
-    let exact = integrals(&map, &[hit], &table_taps(&table))[0];
+    let exact = integrals(&map, &[hit], &orders(&table))[0];
     let at = 3 * (row * 128 + column) as usize;
     for (channel, exact) in exact.iter().enumerate() {
         let found = f64::from(convolved.rgb[at + channel]);
@@ -145,9 +260,9 @@ fn at_normal_incidence_the_convolution_is_the_integral() {
 
 #[test]
 fn sums_in_f32_follow_the_reference() {
-    let (map, taps, hits) = (smooth_map(32), table_taps(&table(33)), hits());
-    let exact = integrals(&map, &hits, &taps);
-    let sums = |backend| Sums::new(&map, &taps, backend).and_then(|sums| sums.at(&hits));
+    let (map, orders, hits) = (smooth_map(32), orders(&table(33)), hits());
+    let exact = integrals(&map, &hits, &orders);
+    let sums = |backend| Sums::new(&map, &orders, backend).and_then(|sums| sums.at(&hits));
     let lanes = sums(Backend::Lanes).expect("lanes");
     for (channel, column) in lanes.iter().enumerate() {
         for (value, exact) in column.iter().zip(&exact) {
@@ -195,6 +310,27 @@ fn scenes() -> Vec<PathBuf> {
         .into()
 }
 
+/// The references of both white scenes are 1 wherever the sphere is seen.
+#[test]
+fn white_scenes_are_white() {
+    let project = Project::at(ROOT, Registry::builtin());
+    for name in ["white_mirror", "white_table"] {
+        let path = Path::new(ROOT).join("data/scenes").join(format!("{name}.toml"));
+        let scene = Scene::read(&path).expect("a scene");
+        let prepared = PreparedScene::new(scene, &project).expect("a scene");
+        let image = prepared.exact(&mut |_| ()).expect("a reference");
+        let mut seen = 0;
+        for channel in &image.channels {
+            for value in channel.values.iter().filter(|value| **value != 0.0) {
+                // Measured 1e-6.
+                assert!((value - 1.0).abs() < 1e-3, "{name}: {value}");
+                seen += 1;
+            }
+        }
+        assert!(seen > 3 * 64 * 64 / 2, "{name}: {seen}");
+    }
+}
+
 #[test]
 fn the_scenes_of_the_paper_are_there() {
     for path in scenes() {
@@ -234,7 +370,7 @@ fn a_wrong_scene_names_its_key() {
         (
             "[choice]",
             "[monte_carlo]\nsamples = 128\n[choice]",
-            "monte_carlo: samples estimate eq. 3",
+            "monte_carlo: samples estimate the sum",
         ),
         ("shape = \"rectangle\"\nhalf_size = [1.2, 0.9]", "shape = \"point\"", "geometry."),
         ("[material.table]", "[diffraction]", "[diffraction] is now [material.table]"),

@@ -127,6 +127,17 @@ pub enum Negative {
 }
 
 impl Environment {
+    /// The name under which scenes ask for [`Environment::white`].
+    pub const WHITE: &str = "white";
+
+    /// Radiance 1 in R, G and B from everywhere: what a surface that only redistributes light gives back
+    /// whole.
+    pub fn white() -> Self {
+        let (width, height) = (64, 32);
+        let radiance = vec![[1.0; 3]; width * height];
+        Self { width, height, radiance, origin: "radiance 1 from everywhere".to_owned() }
+    }
+
     /// A map of given radiance, row by row from the zenith; `origin` says where it is from.
     ///
     /// # Errors

@@ -30,12 +30,12 @@
 //! | `convolution.map_width` | texels | of the environments as they are convolved with a diffractive surface |
 //! | `convolution.align` | | whether the table is straightened along its main directions first |
 //! | `convolution.straighten` | | `"lookup"`: the map is turned into the frame of the surface and looked up there; `"back"`: it is turned back (toisoul2017 §5.2, four passes); `"none"`: two passes in the frame of the world |
-//! | `reference.method` | | of a scratch `"quadrature"` (semi-analytic, f64); of a diffractive surface `"full"`: the convolution with the whole table under n = ω_o = r_v, or `"integral"`: eq. 3 at every pixel; of either `"monte_carlo"` |
+//! | `reference.method` | | of a scratch `"quadrature"` (semi-analytic, f64); of a diffractive surface `"full"`: the convolution with the whole table under n = ω_o = r_v, or `"integral"`: the sum over the table at every pixel; of either `"monte_carlo"` |
 //! | `monte_carlo.samples` | per pixel (and light) | a multiple of [`SAMPLES_PER_PASS`], at least two passes; the section may be left out unless it is the reference, and is refused beside `"full"`, which it does not estimate |
 //! | `monte_carlo.seed` | | of the counter-based random numbers, 1 if left out |
 //! | `[[approximation]] name` | | names its files; letters, digits, `_` and `-`, none of [`FILES`] |
 //! | `approximation.sphere`, `.polygon` | | of a scratch: the candidate that shades lights of that kind, by any of its names: `effect/name`, `form:effect/name`, `FILE.wgsl#function` |
-//! | `approximation.method` | | of a diffractive surface: `"two_pass"`, `"printed"` (alg. 1 read literally), `"sum"` (two directional blurs), `"line"` (1D along the first direction) or `"reconstructed"` (eq. 3 with the table that the factors give) |
+//! | `approximation.method` | | of a diffractive surface: `"two_pass"`, `"printed"` (alg. 1 read literally), `"sum"` (two directional blurs), `"line"` (1D along the first direction) or `"reconstructed"` (that sum with the table that the factors give) |
 //! | `approximation.rank` | | of `two_pass`, `printed` and `reconstructed`, 1 if left out |
 //! | `approximation.factors` | | `"svd"`, or `"convolution"`: of least error after convolution with the environments |
 //! | `[budget.NAME]` | | `relative_rms`, `flip` or both: limits for the approximation called NAME |
@@ -312,7 +312,7 @@ impl Method {
             Self::Printed { rank } => format!("alg. 1 as printed, rank {rank}"),
             Self::Sum => "sum of two directional blurs".into(),
             Self::Line => "1D along the tangents".into(),
-            Self::Reconstructed { rank } => format!("eq. 3 with a table of rank {rank}"),
+            Self::Reconstructed { rank } => format!("the sum over a table of rank {rank}"),
         }
     }
 
@@ -343,7 +343,7 @@ impl ReferenceMethod {
         match self {
             Self::Quadrature => "quadrature (semi-analytic, f64)",
             Self::Full => "the convolution with the whole table under n = ω_o = r_v, f64",
-            Self::Integral => "eq. 3 at every pixel, f64",
+            Self::Integral => "the sum over the table at every pixel, f64",
             Self::MonteCarlo => "Monte Carlo",
         }
     }

@@ -272,7 +272,7 @@ fn monte_carlo(
         return Ok(None);
     };
     require(reference != ReferenceMethod::Full, || {
-        let what = "samples estimate eq. 3, and reference.method = \"full\" is another quantity, under \
+        let what = "samples estimate the sum over the table, and reference.method = \"full\" is another quantity, under \
                     n = view = mirror direction: \"integral\" can be held against them";
         section.wrong("", what)
     })?;

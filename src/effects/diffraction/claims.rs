@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::Vector3;
 
 use super::exhibits::{
-    GREEN_NM, PAPER, cosine_error, disc_furnace, fixed_cosine_error, mean_over_disc, rule_errors,
+    GREEN_NM, PAPER, cosine_error, disc_in_white_sky, even_table, fixed_cosine_error,
+    mirror_by_stam, rule_errors, zero_order_error,
 };
 use super::preparation::{USUAL, prepared};
 use super::surfaces::{Patch, holographic_paper};
@@ -20,7 +21,8 @@ use crate::measured::spectra::Spectra;
 pub(super) const CLAIMS: &[(&str, ClaimCheck<Candidates>)] = &[
     ("prefactor", prefactor),
     ("one_wavelength", one_wavelength),
-    ("jacobian", jacobian),
+    ("white_sky", white_sky),
+    ("mirror", mirror),
     ("fixed_cosine", fixed_cosine),
     ("reflection", reflection),
     ("cross_terms", cross_terms),
@@ -60,22 +62,37 @@ fn one_wavelength(_: &Candidates) -> Result<Found, ClaimError> {
     Ok(Found::new(found, "differs"))
 }
 
-fn jacobian(_: &Candidates) -> Result<Found, ClaimError> {
-    let shares: Vec<String> = disc_furnace(&[0.5, 0.9])?
+fn white_sky(_: &Candidates) -> Result<Found, ClaimError> {
+    let shares: Vec<String> = disc_in_white_sky(&[0.5, 0.9])?
         .into_iter()
-        .map(|(u, printed, whole)| {
+        .map(|disc| {
+            let even = even_table(disc.half_width);
             format!(
-                "{:.1} % of an even table and {:.1} % of a disc's at {u}",
-                100.0 * (1.0 - 1.0 / mean_over_disc(u)),
-                100.0 * (1.0 - printed / whole)
+                "{:.3} of an even table and {:.3} of a disc's up to {}, by eq. 3 {:.3} and {:.3}",
+                even.printed,
+                disc.printed,
+                disc.half_width,
+                even.with_solid_angle,
+                disc.with_solid_angle
             )
         })
         .collect();
     let found = format!(
-        "the sum over texels has no solid angle: each is dω_i = dh_x dh_y/cos θ_i. Left out without \
-         1/cos θ_i, by half-width: {}. Alg. 1 divides by the sum of the weights, which hides it in a \
-         white sky and nowhere else",
-        shares.join(", ")
+        "Σ S_d ΔA comes back of a white sky. The printed sum, which has neither the area of a texel nor \
+         dω_i = dh_x dh_y/cos θ_i, gives {}. Alg. 1 divides by the sum of the weights, which hides it in \
+         a white sky and nowhere else",
+        shares.join("; ")
+    );
+    Ok(Found::new(found, "does not hold"))
+}
+
+fn mirror(_: &Candidates) -> Result<Found, ClaimError> {
+    let at = |degrees: f64| format!("{:.3} at {degrees}°", mirror_by_stam(degrees.to_radians()));
+    let found = format!(
+        "beside a table at w = 2 the factor is cos²θ for the mirror, which loses nothing at any angle: \
+         {}, {}. With w² in place of 4 it is 1; over all directions it does not conserve either",
+        at(45.0),
+        at(51.7)
     );
     Ok(Found::new(found, "does not hold"))
 }
@@ -86,11 +103,13 @@ fn fixed_cosine(_: &Candidates) -> Result<Found, ClaimError> {
         .map(|r| format!("{:.1} % for |h| from {} to {}", 100.0 * r.2, r.0, r.1))
         .collect();
     let found = format!(
-        "w² for a shallow relief only. Pits 120 nm deep at {GREEN_NM} nm: {:.1} % in every order at \
-         43.4°, {:.1} % at 60°; a disc's table at w = 2 against one with each texel's own w, relative \
+        "w² for a shallow relief only. Pits 120 nm deep at {GREEN_NM} nm: {:.1} % in every order but the \
+         zero order at 43.4°, {:.1} % at 60°; in the zero order of half duty {:.1} % and {:.1} %; a disc's table at w = 2 against one with each texel's own w, relative \
          L2 error: {}",
         100.0 * cosine_error(120.0, 43.4_f64.to_radians()),
         100.0 * cosine_error(120.0, 60.0_f64.to_radians()),
+        100.0 * zero_order_error(120.0, 43.4_f64.to_radians()),
+        100.0 * zero_order_error(120.0, 60.0_f64.to_radians()),
         rings.join(", ")
     );
     Ok(Found::new(found, "differs"))

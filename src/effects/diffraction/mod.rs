@@ -56,6 +56,7 @@ mod claims;
 mod error;
 mod exhibits;
 mod far_field;
+mod growth;
 mod illuminant;
 mod laws;
 mod orders;
@@ -70,6 +71,7 @@ mod table;
 
 pub use error::DiffractionError;
 pub use far_field::{FarField, FarFieldTransform};
+pub use growth::OrderGrowth;
 pub use illuminant::IlluminantChoice;
 pub use orders::{
     Order, SinusoidAmplitude, fundamental, orders, predicted_power, sinusoid_amplitude,

@@ -1,5 +1,6 @@
 //! Diffraction tables from settings: what `striae simulate diffraction` and renderers ask for.
 
+use super::growth::OrderGrowth;
 use super::illuminant::IlluminantChoice;
 use super::preparation::{Detrend, Missing, Preparation, PreparedHeights, Window, prepared};
 use super::surfaces::{
@@ -25,12 +26,17 @@ pub fn settings<S: AsRef<str>>(assignments: &[S]) -> Result<Settings, SettingsEr
     Settings::parse(parameters, assignments)
 }
 
-/// The diffraction table that the settings describe, in sr⁻¹ over h_x and h_y.
+/// The diffraction table that the settings describe, in sr⁻¹ over h_x and h_y, and what its orders are
+/// at another w.
 ///
 /// # Errors
 /// [`DiffractionError`] for settings outside their domain and files that cannot be used.
-pub fn simulated_table(settings: &Settings, spectra: &Spectra) -> Result<Grid, DiffractionError> {
-    Ok(table(settings, spectra)?.0.grid)
+pub fn simulated_table(
+    settings: &Settings,
+    spectra: &Spectra,
+) -> Result<(Grid, OrderGrowth), DiffractionError> {
+    let DiffractionTable { grid, growth, .. } = table(settings, spectra)?.0;
+    Ok((grid, growth))
 }
 
 pub(super) fn run(settings: &Settings, spectra: &Spectra) -> Result<Simulation, SimulationError> {

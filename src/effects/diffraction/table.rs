@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::DiffractionError;
 use super::far_field::{FarField, FarFieldTransform};
+use super::growth::OrderGrowth;
 use super::illuminant::IlluminantChoice;
 use super::preparation::PreparedHeights;
 use super::resample::{Cells, gathered};
@@ -50,6 +51,8 @@ pub struct DiffractionTable {
     pub grid: Grid,
     /// Shares at each wavelength.
     pub shares: Vec<PowerShares>,
+    /// What its orders are at another w.
+    pub growth: OrderGrowth,
 }
 
 /// Shares of the reflected power at one wavelength.
@@ -139,7 +142,9 @@ pub fn of_surface(
         let [cells_x, cells_y] = field.cells();
         (gathered(&field.power, cells_x, cells_y, &x, &y), field.total(), field.evanescent())
     };
-    assembled(shape, spectra, &surface.origin, share)
+    let growth =
+        |weights: &[[f64; 3]]| OrderGrowth::of_surface(surface, &shape.wavelengths_nm, weights, w);
+    assembled(shape, spectra, &surface.origin, share, growth)
 }
 
 /// The table of a pattern recorded at one wavelength: its total is taken as all of the power.
@@ -191,16 +196,17 @@ pub fn of_pattern(
         texels.iter_mut().for_each(|p| *p *= gain);
         (texels, gain, 0.0)
     };
-    assembled(shape, spectra, &pattern.origin, share)
+    assembled(shape, spectra, &pattern.origin, share, |_| OrderGrowth::unknown())
 }
 
 /// A table from what `share` finds at a wavelength: the power per texel, all power, and what of it is
-/// evanescent.
+/// evanescent. `growth` is asked with the weights of the channels R, G, B.
 fn assembled(
     shape: &TableShape,
     spectra: &Spectra,
     origin: &str,
     share: impl Fn(f64) -> (Vec<f64>, f64, f64) + Sync,
+    growth: impl Fn(&[[f64; 3]]) -> OrderGrowth,
 ) -> Result<DiffractionTable, DiffractionError> {
     shape.check()?;
     let weights = match &shape.channels {
@@ -236,7 +242,8 @@ fn assembled(
     }
     let grid = Grid { axes: vec![x, y], channels, origin: format!("diffraction of {origin}") };
     grid.check()?;
-    Ok(DiffractionTable { grid, shares })
+    let growth = weights.map_or_else(OrderGrowth::unknown, |weights| growth(&weights));
+    Ok(DiffractionTable { grid, shares, growth })
 }
 
 /// Relative difference of two tables of one shape, in the L2 norm over all channels.

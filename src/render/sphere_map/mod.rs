@@ -9,26 +9,25 @@
 //! | r_v | `outwards` | 1 | ω_o mirrored in the surface |
 //! | h | `h_x`, `h_y` | 1 | ω_i + ω_o projected on the surface, not normalised |
 //! | S_d | table | sr⁻¹ | energy per area of direction cosines, 1 in total for a lossless surface |
-//! | G | | 1 | (1 + ω_i·ω_o)²/((n·ω_i)(n·ω_o)), Stam's factor |
-//! | F₀ | | 1 | amplitude reflectance at normal incidence, applied by the surface |
+//! | w | | 1 | n·ω_i + n·ω_o |
+//! | F₀ | | 1 | reflectance at normal incidence, applied by the surface |
 //!
 //! # What is summed
 //!
-//! With S_d as above eq. 3 reads L = F₀² ∫ G/4 · S_d(h) L_i (n·ω_i) dω_i: the quarter makes G 1 at
-//! normal incidence, where the table is made. Under n = ω_o = r_v the direction of light with the
-//! projection h is (h_x, h_y, c), c = √(1 − |h|²), and dω_i = dh_x dh_y / c. So
+//! A surface sends to the eye L = F₀ ∫∫ S_d(h; w) L_i dh_x dh_y (see [`crate::render::surface`]). Under
+//! n = ω_o = r_v the direction of light with the projection h is (h_x, h_y, c), c = √(1 − |h|²), and
+//! w = 1 + c. Orders with |h| > 1 do not exist; what they hold in a table is the mirror's, as what orders
+//! lose at their w, so that the sum of the weights is that of the table.
 //!
-//! L = F₀² ∫∫ ((1 + c)/2)² S_d(h) L_i(h_x, h_y, c) dh_x dh_y / c.
-//!
-//! The sum of eq. 6 and 7 has no 1/c and no area of a cell, and the pseudo-code divides by the
-//! largest sum of weights in their place; neither is needed.
+//! Eq. 6 and 7 of toisoul2017 sum ((1 + c)/2)² S_d L_i, without the area of a cell and the 1/c of eq. 3;
+//! the pseudo-code divides by the largest sum of weights.
 //!
 //! # Why two passes are exact on the sphere, but for the poles
 //!
 //! A pass moves a direction by an angle along a great circle. Moved by s₂ along the meridian and then
 //! by s₁ to the east, r goes to sin s₁ e + cos s₁ (sin s₂ n + cos s₂ r): the projection on the frame
 //! (e, n) of r is h = (sin s₁, cos s₁ sin s₂), because the east stays the same along a meridian.
-//! Tabulated over the two angles, with their Jacobian cos s₁ in place of 1/c, a kernel of rank r is
+//! Tabulated over the two angles, by area, a kernel of rank r is
 //! convolved by r pairs of passes exactly; over h_x and h_y it would not be. What is left is the
 //! interpolation of the map between the passes, and the poles of its frame: a move along a meridian
 //! that crosses one comes down with the east turned about, so that what of the kernel is odd in s₁

@@ -1,11 +1,11 @@
-//! What n = ω_o = r_v costs: the convolution against eq. 3, by incidence angle.
+//! What n = ω_o = r_v costs: the convolution against the sum over the table at every point, by incidence angle.
 
 use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::LEFT_OUT;
 use super::kernels::DiffractionKernels;
-use super::sums::{columns, integrals, table_taps};
+use super::sums::{columns, integrals};
 use crate::render::RenderError;
 use crate::render::backend::Backend;
 use crate::render::geometry::{Frame, Hit};
@@ -15,14 +15,14 @@ use crate::render::sphere_map::{AzimuthalOperator, SphereMap, lookup};
 const ANGLES_DEG: [f64; 8] = [2.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 75.0];
 /// Azimuths at each.
 const AZIMUTHS: usize = 24;
-/// The convolution under n = ω_o = r_v against eq. 3 at one angle of incidence.
+/// The convolution under n = ω_o = r_v against the sum at a point, at one angle of incidence.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct AngleError {
     /// Between the normal and the direction of view, degrees.
     pub angle_deg: f64,
-    /// Root mean square of the error over azimuths and channels, over that of eq. 3.
+    /// Root mean square of the error over azimuths and channels, over that of the sum.
     pub relative_rms: f64,
-    /// Mean of the convolution over that of eq. 3.
+    /// Mean of the convolution over that of the sum.
     pub mean_ratio: f64,
 }
 
@@ -35,7 +35,7 @@ pub(super) fn by_angle(
     kernels: &DiffractionKernels,
     operator: &AzimuthalOperator,
 ) -> Result<Vec<AngleError>, RenderError> {
-    let taps = table_taps(&kernels.table).thinned(LEFT_OUT);
+    let orders = kernels.orders.thinned(LEFT_OUT);
     // In whose map both look: neither is blurred more than the other.
     let frame = Frame::of(Vector3::x(), Vector3::y());
     let convolved = lookup(&operator.apply(object), Backend::Lanes)?;
@@ -51,7 +51,7 @@ pub(super) fn by_angle(
                     Hit::of_directions(frame, reflection)
                 })
                 .collect();
-            let exact = integrals(object, &hits, &taps);
+            let exact = integrals(object, &hits, &orders);
             let found = convolved.colours(&columns(&hits, |hit| hit.reflection))?;
             let (mut errors, mut squares, mut sums) = (0.0, 0.0, [0.0; 2]);
             for (at, exact) in exact.iter().enumerate() {

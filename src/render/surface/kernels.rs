@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use crate::effects::diffraction;
+use crate::effects::diffraction::{self, OrderGrowth};
 use crate::factor::{
     Alignment, ConvolutionNorm, ConvolvedOptions, Decomposition, DirectionalKernel, LowRank,
     NormOptions, SearchOptions, convolved, directional, main_directions,
@@ -15,7 +15,7 @@ use crate::render::scene::{Factors, TableSource};
 use crate::render::sphere_map::{AngularKernel, Taps, along};
 use crate::table::Grid;
 
-use super::sums::table_taps;
+use super::orders::{Orders, zero_order_shares};
 
 /// Share of |S| that sums over a reconstructed table leave out.
 const LEFT_OUT: f64 = 1e-3;
@@ -27,6 +27,8 @@ const LINE_HALF_WIDTH: f64 = 4.0;
 pub struct DiffractionKernels {
     /// S_d over h_x and h_y, channels R, G, B.
     pub table: Grid,
+    /// Its orders, for sums at every point.
+    pub orders: Orders,
     /// Directions along which it is factorised.
     pub alignment: Alignment,
     /// It over the angles of the passes.
@@ -48,15 +50,16 @@ impl DiffractionKernels {
         spectra: &Spectra,
         seen: Vec<Environment>,
     ) -> Result<Self, RenderError> {
-        let table = table(source, spectra)?;
+        let (table, growth) = table(source, spectra)?;
         let alignment = if align {
             main_directions(&table, &SearchOptions::default())?.alignment
         } else {
             Alignment::identity()
         };
-        let angular = AngularKernel::new(&table, &alignment);
+        let angular = AngularKernel::new(&table, &alignment, &growth);
         let decomposition = Decomposition::of_aligned(&angular.grid, alignment)?;
-        Ok(Self { table, alignment, angular, decomposition, seen })
+        let orders = Orders::of_table(&table, growth);
+        Ok(Self { table, orders, alignment, angular, decomposition, seen })
     }
 
     /// Factors of the kernel.
@@ -89,28 +92,35 @@ impl DiffractionKernels {
         Ok(taps)
     }
 
-    /// The taps of one blur along the first direction of a surface: the table integrated across it.
+    /// The orders of one blur along the first direction of a surface: the table integrated across it.
     ///
     /// # Errors
     /// As [`directional`].
-    pub fn line(&self) -> Result<Taps, RenderError> {
+    pub fn line(&self) -> Result<Orders, RenderError> {
         let lines = directional(&self.table, &[[1.0, 0.0]], f64::INFINITY)?;
         let mut taps = Taps::default();
         for line in &lines.kernels {
             let ([x, y], step) = (line.direction, line.axis.step().abs());
-            taps.push_line(&line.axis, |h| [h * x, h * y, step], profiles(line));
+            let zero_order = zero_order_shares(&line.axis);
+            let profiles = [0, 1, 2].map(|channel| -> Vec<f64> {
+                let density = self.orders.growth.zero_order[channel] / step;
+                let values = profiles(line)[channel].iter().zip(&zero_order);
+                values.map(|(value, share)| value - share * density).collect()
+            });
+            let profiles = profiles.each_ref().map(Vec::as_slice);
+            taps.push_line(&line.axis, |h| [h * x, h * y, step], profiles);
         }
-        Ok(taps)
+        Ok(self.orders.by(taps))
     }
 
-    /// The taps of eq. 3 with the table that factors of rank `rank` of it give.
+    /// The orders of the table that factors of rank `rank` of it give.
     ///
     /// # Errors
     /// [`RenderError::LowRank`]: a rank above that of the table.
-    pub fn reconstructed(&self, rank: usize) -> Result<Taps, RenderError> {
+    pub fn reconstructed(&self, rank: usize) -> Result<Orders, RenderError> {
         let factors = Decomposition::of(&self.table)?.low_rank(rank)?;
-        let taps = table_taps(&factors.to_grid(self.table.x(), self.table.y())?);
-        Ok(taps.thinned(LEFT_OUT))
+        let table = factors.to_grid(self.table.x(), self.table.y())?;
+        Ok(self.orders.by(self.orders.taps_of(&table)).thinned(LEFT_OUT))
     }
 }
 
@@ -119,10 +129,13 @@ fn profiles(line: &DirectionalKernel) -> [&[f64]; 3] {
     [0, 1, 2].map(|channel| line.channels[channel].1.as_slice())
 }
 
-/// Reads or simulates a table and checks its axes and channels.
-fn table(source: &TableSource, spectra: &Spectra) -> Result<Grid, RenderError> {
-    let grid = match source {
-        TableSource::File(path) => Grid::read_exr(path).map_err(MeasuredError::from)?,
+/// Reads or simulates a table and checks its axes and channels; how its orders grow with w is known of
+/// simulated heights.
+fn table(source: &TableSource, spectra: &Spectra) -> Result<(Grid, OrderGrowth), RenderError> {
+    let (grid, growth) = match source {
+        TableSource::File(path) => {
+            (Grid::read_exr(path).map_err(MeasuredError::from)?, OrderGrowth::unknown())
+        }
         TableSource::Simulated(settings) => {
             let refused = |error: &dyn Display| RenderError::Unusable(error.to_string());
             let settings = diffraction::settings(settings).map_err(|error| refused(&error))?;
@@ -141,5 +154,5 @@ fn table(source: &TableSource, spectra: &Spectra) -> Result<Grid, RenderError> {
     for channel in ["R", "G", "B"] {
         grid.require(channel).map_err(MeasuredError::from)?;
     }
-    Ok(grid)
+    Ok((grid, growth))
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::kernels::DiffractionKernels;
+use super::orders::Orders;
 use super::sums::{columns, timed};
 use crate::render::RenderError;
 use crate::render::backend::Backend;
@@ -21,7 +22,7 @@ pub(super) enum Plan {
     /// Passes over maps, one after the other: the taps of every layer in each.
     Passes(Vec<Vec<Taps>>),
     /// A sum at every point.
-    Sums(Taps),
+    Sums(Orders),
 }
 
 impl Plan {
@@ -56,7 +57,7 @@ impl Plan {
     ) -> Result<Vec<TimedPass>, RenderError> {
         let passes = match self {
             Self::Passes(passes) => passes,
-            Self::Sums(taps) => return Ok(vec![timed(map, hits, taps)?]),
+            Self::Sums(orders) => return Ok(vec![timed(map, hits, orders)?]),
         };
         let mut layers = vec![map.clone()];
         let mut timed = Vec::with_capacity(passes.len());

@@ -1,9 +1,10 @@
 //! Surfaces with a diffraction table under environments: the ways to convolve an environment with the
-//! table, and eq. 3 of toisoul2017 at every point.
+//! table, and the sum over the table at every point.
 
 mod angles;
 mod kernels;
 mod methods;
+mod orders;
 mod sampling;
 mod sums;
 
@@ -13,14 +14,16 @@ use std::sync::{Arc, OnceLock};
 
 pub use angles::AngleError;
 pub use kernels::DiffractionKernels;
-pub use sums::{Sums, integrals, table_taps};
+pub use orders::Orders;
+pub(in crate::render) use orders::zero_order_shares;
+pub use sums::{Sums, integrals};
 
 use super::backend::{Backend, Painter};
 use super::error::RenderError;
 use super::geometry::Hit;
 use super::scene::{Convolution, Diffraction, Light, LightShape, Method, ReferenceMethod, Scene};
 use super::shading::{Columns, Details, Moved, Sampler, Shader, Shading, rgb_columns};
-use super::sphere_map::{AzimuthalOperator, SphereMap, Taps, lookup};
+use super::sphere_map::{AzimuthalOperator, SphereMap, lookup};
 use super::times::TimedPass;
 use super::view::Camera;
 use crate::document::{Block, PrintedTable};
@@ -110,9 +113,9 @@ impl Surface {
         self.operator.get_or_init(made)
     }
 
-    /// The cells of the table that sums at every pixel keep.
-    fn taps(&self) -> Taps {
-        table_taps(&self.kernels.table).thinned(LEFT_OUT)
+    /// What sums at every pixel keep of the orders of the table.
+    fn orders(&self) -> Orders {
+        self.kernels.orders.thinned(LEFT_OUT)
     }
 
     /// Pixels of the picture, from what `shade` says for what a frame shows of them; black where
@@ -162,8 +165,11 @@ fn looked_up<'a>(
     Ok(Box::new(move |hits| painter.colours(&lit.directions(hits, in_object))))
 }
 
-/// A map of the project by name, or a file.
+/// A map of the project by name, a file, or `white`.
 fn environment(name: &str, data: &Path) -> Result<Environment, RenderError> {
+    if name == Environment::WHITE {
+        return Ok(Environment::white());
+    }
     let is_file = Path::new(name).extension().is_some();
     let path = match is_file {
         true => Path::new(name).to_path_buf(),
@@ -192,10 +198,10 @@ impl Shading for Surface {
             let map = |lit: &Lit| self.operator().apply(&lit.object);
             return self.over(|lit| looked_up(lit, (map(lit), true), Backend::Lanes));
         }
-        let taps = Arc::new(self.taps());
+        let orders = Arc::new(self.orders());
         self.over(|lit| {
-            let taps = Arc::clone(&taps);
-            Ok(Box::new(move |hits| Ok(rgb_columns(&integrals(&lit.world, hits, &taps)))))
+            let orders = Arc::clone(&orders);
+            Ok(Box::new(move |hits| Ok(rgb_columns(&integrals(&lit.world, hits, &orders)))))
         })
     }
 
@@ -207,8 +213,8 @@ impl Shading for Surface {
     ) -> Result<Shader<'a>, RenderError> {
         let straighten = self.convolution.straighten;
         match self.plan(at)? {
-            Plan::Sums(taps) => self.over(|lit| {
-                let sums = Sums::new(&lit.world, taps, backend)?;
+            Plan::Sums(orders) => self.over(|lit| {
+                let sums = Sums::new(&lit.world, orders, backend)?;
                 Ok(Box::new(move |hits| sums.at(hits)))
             }),
             Plan::Passes(passes) => self
@@ -217,10 +223,10 @@ impl Shading for Surface {
     }
 
     fn sampler<'a>(&'a self, seed: u64, backend: Backend<'a>) -> Result<Sampler<'a>, RenderError> {
-        let taps = self.taps();
+        let orders = self.orders();
         let mut painters = Vec::with_capacity(self.frames.len());
         for lit in &self.frames {
-            let kernel = sampling::kernel(&lit.world, &taps, seed)?;
+            let kernel = sampling::kernel(&lit.world, &orders, seed)?;
             painters.push(Painter::new(vec![kernel], backend)?);
         }
         Ok(Box::new(move |range, first| {
@@ -242,7 +248,7 @@ impl Shading for Surface {
             ReferenceMethod::Full => {
                 TimedPass::convolved(std::slice::from_ref(map), &[self.kernels.angular.taps()])
             }
-            _ => timed(map, &lit.hits, &table_taps(&self.kernels.table)),
+            _ => timed(map, &lit.hits, &self.kernels.orders),
         };
         Ok(vec![pass?])
     }
@@ -250,7 +256,7 @@ impl Shading for Surface {
     fn timed_sampler(&self, seed: u64) -> Result<Vec<TimedPass>, RenderError> {
         let lit = self.first()?;
         Ok(vec![TimedPass {
-            kernel: sampling::kernel(&lit.world, &self.taps(), seed)?,
+            kernel: sampling::kernel(&lit.world, &self.orders(), seed)?,
             inputs: sampling::draws(&lit.pixels, &lit.hits, 0),
             evaluations: lit.hits.len(),
         }])
@@ -268,12 +274,12 @@ impl Shading for Surface {
         let ([first, second], [r, g, b]) = (directions_deg, albedo);
         let table = PrintedTable::over(
             "What n = ω_o = r_v costs in the first frame: the convolution with the whole table against \
-             eq. 3 at 24 azimuths per angle of incidence, on a plane.",
+             the sum over the table at 24 azimuths per angle of incidence, on a plane.",
             &by_angle,
         )
         .number("incidence", "°", |of| of.angle_deg)
         .number("relative RMS", "1", |of| of.relative_rms)
-        .number("mean over that of eq. 3", "1", |of| of.mean_ratio);
+        .number("mean over that of the sum", "1", |of| of.mean_ratio);
         let text = format!(
             "The axes of the factors lie along {first:.2}° and {second:.2}° of the table. Of a uniform \
              environment the kernel returns {r:.3}, {g:.3}, {b:.3} in R, G, B."

@@ -1,6 +1,6 @@
-//! Monte Carlo over the cells of a diffraction table: eq. 3 of toisoul2017 at a pixel, with cells drawn
-//! in proportion to their weight (Walker's alias method).
+//! Monte Carlo over the cells of a diffraction table: the sum at a pixel, with cells drawn in proportion to their weight (Walker's alias method).
 
+use super::orders::Orders;
 use super::sums::{self, hit_columns};
 use crate::form::DataTable;
 use crate::render::RenderError;
@@ -20,12 +20,12 @@ const SALT: u32 = 0x85eb_ca6b;
 ///
 /// # Errors
 /// [`RenderError::Form`] if the text does not load.
-pub(super) fn kernel(map: &SphereMap, taps: &Taps, seed: u64) -> Result<Kernel, RenderError> {
+pub(super) fn kernel(map: &SphereMap, orders: &Orders, seed: u64) -> Result<Kernel, RenderError> {
     let size = |weight: [f64; 3]| weight.iter().map(|channel| channel.abs()).sum::<f64>();
-    let sizes: Vec<f64> = taps.iter().map(|(_, weight)| size(weight)).collect();
+    let sizes: Vec<f64> = orders.taps.iter().map(|(_, weight)| size(weight)).collect();
     let total: f64 = sizes.iter().sum();
     let mut drawn = Taps::default();
-    for (place, weight) in taps.iter() {
+    for (place, weight) in orders.taps.iter() {
         // The weight over the probability of the draw.
         let share = size(weight) / total;
         drawn.push(place, weight.map(|w| if share > 0.0 { w / share } else { 0.0 }));
@@ -36,7 +36,7 @@ pub(super) fn kernel(map: &SphereMap, taps: &Taps, seed: u64) -> Result<Kernel, 
     );
     let text = [sums::TEXT, TEXT, RANDOM, &constants].join("\n");
     let alias = DataTable::vectors("alias_table", &alias_table(&sizes));
-    sums::kernel(&text, "surface_samples", map, &drawn, 1, vec![alias])
+    sums::kernel(&text, "surface_samples", map, (&drawn, orders), 1, Some(alias))
 }
 
 /// What a hit is drawn for: its directions, the number of its pixel and the first sample.

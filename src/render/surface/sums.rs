@@ -1,9 +1,27 @@
-//! Eq. 3 of toisoul2017 at points of a surface, as a sum over the cells of a table: in f64, the
-//! reference, and as kernels.
+//! The light that a surface with a diffraction table sends to the eye, as a sum over the cells of the
+//! table: in f64, the reference, and as kernels.
+//!
+//! | symbol | here | unit | meaning |
+//! |---|---|---|---|
+//! | ω_i, ω_o | | 1 | directions of light and of view, unit |
+//! | h | taps | 1 | ω_i + ω_o projected on the surface |
+//! | w | | 1 | ω_i·n + ω_o·n |
+//! | S_d | [`Orders::taps`] | sr⁻¹ | share of the light per area of direction cosines, at the w of the table |
+//! | g(w) | [`Orders::growth`] | 1 | orders at w over those of the table |
+//! | E | [`Orders::total`] | 1 | ∫ S_d dA over the table, the zero order included |
+//!
+//! Light that leaves in dω_o fills dh_x dh_y = cos θ_o dω_o of direction cosines, so that a share S_d dh
+//! of what falls on the surface is a reflectance distribution of S_d (Harvey–Shack), and of the mirror
+//! nothing is lost at any angle. Eq. 3 of toisoul2017 has Stam's factor G/4 beside a table at w = 2: at
+//! the mirror direction that is cos²θ, not 1, where w² stands for 4, and over all directions it does not
+//! conserve (∫ S_d dh/cos θ_i at normal exitance). Orders beyond the horizon carry no light. What they
+//! hold, and what other orders lose or gain at their own w, is the mirror's, as in the theory of small
+//! perturbations (Rayleigh–Rice), so that a table with E = 1 returns the light of a white sky whole.
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
+use super::orders::Orders;
 use crate::form::DataTable;
 use crate::render::RenderError;
 use crate::render::backend::{Backend, Kernel, Painter};
@@ -11,7 +29,6 @@ use crate::render::geometry::Hit;
 use crate::render::shading::Columns;
 use crate::render::sphere_map::{self, MOST_TAPS, STILL, SphereMap, Taps, summed};
 use crate::render::times::TimedPass;
-use crate::table::{Grid, centres};
 
 /// The text of the kernel: lookups in maps, and the sum.
 pub(super) const TEXT: &str =
@@ -19,57 +36,41 @@ pub(super) const TEXT: &str =
 /// The file of the sum.
 const FILE: &str = "src/render/surface/surface_sum.wgsl";
 
-/// One tap per cell of a table with channels R, G, B.
-pub fn table_taps(grid: &Grid) -> Taps {
-    let (dx, dy) = (grid.x().step().abs(), grid.y().step().abs());
-    let channels = ["R", "G", "B"].map(|name| grid.channel(name));
-    let mut taps = Taps::default();
-    for (at, [h_x, h_y]) in centres(grid.x(), grid.y()).enumerate() {
-        let weight = channels.map(|channel| {
-            let value = channel.and_then(|channel| channel.values.get(at));
-            value.map_or(0.0, |value| f64::from(*value) * dx * dy)
-        });
-        taps.push([h_x, h_y, dx.max(dy)], weight);
-    }
-    taps
-}
-
 /// Radiance R, G, B at each hit, for F₀ = 1.
 ///
-/// `taps`: displacement along the two directions of a hit, width of the cell, and the table times
-/// the area of the cell. The sum over cells of ((1 + ω_i·ω_o)²/4)/((n·ω_o) μ_i), with the mean of
-/// 1/μ_i over the ring of each cell; what lies beyond the horizon is left out. Bilinear in `map`.
-pub fn integrals(map: &SphereMap, hits: &[Hit], taps: &Taps) -> Vec<[f64; 3]> {
-    hits.par_iter().map(|hit| integral(map, hit, taps)).collect()
+/// With L_m the radiance from the mirror direction, E the whole share `total` of the table and g its
+/// growth, the sum over cells is E L_m + Σ S_d g(w) (L_i − L_m) ΔA: cells beyond the horizon leave what
+/// they hold to the mirror. Bilinear in `map`.
+pub fn integrals(map: &SphereMap, hits: &[Hit], orders: &Orders) -> Vec<[f64; 3]> {
+    hits.par_iter().map(|hit| integral(map, hit, orders)).collect()
 }
 
-fn integral(map: &SphereMap, hit: &Hit, taps: &Taps) -> [f64; 3] {
+fn integral(map: &SphereMap, hit: &Hit, orders: &Orders) -> [f64; 3] {
     let Hit { frame, reflection, .. } = hit;
     let [first, beside] = frame.tangents;
-    let mu_o = reflection.dot(&frame.normal).max(1e-4);
+    let mu_o = reflection.dot(&frame.normal);
     let mirror = [reflection.dot(&first), reflection.dot(&beside)];
-    let mut sum = [0.0; 3];
-    for ([along, across, cell], weight) in taps.iter() {
+    let mirrored = map.bilinear((*reflection).into());
+    let mut sum = [0, 1, 2].map(|channel| orders.total[channel] * mirrored[channel]);
+    for ([along, across, _], weight) in orders.taps.iter() {
         let (u, v) = (mirror[0] + along, mirror[1] + across);
-        let radius = (u * u + v * v).sqrt();
-        if radius >= 1.0 {
+        let square = u * u + v * v;
+        if square >= 1.0 {
             continue;
         }
-        let (inner, outer) = ((radius - 0.5 * cell).max(0.0), (radius + 0.5 * cell).min(1.0));
-        let per_mu = 2.0 / ((1.0 - inner * inner).sqrt() + (1.0 - outer * outer).sqrt());
-        let mu_i = (1.0 - radius * radius).sqrt();
-        let cosine = mu_o * mu_i - mirror[0] * u - mirror[1] * v;
-        let factor = 0.25 * (1.0 + cosine) * (1.0 + cosine) / mu_o * per_mu;
+        let mu_i = (1.0 - square).sqrt();
+        let growth = orders.growth.at(mu_o + mu_i);
         let incident = first * u + beside * v + frame.normal * mu_i;
         let radiance = map.bilinear(incident.into());
-        for ((sum, weight), radiance) in sum.iter_mut().zip(weight).zip(radiance) {
-            *sum += weight * factor * radiance;
+        for channel in 0..3 {
+            let more = radiance[channel] - mirrored[channel];
+            sum[channel] += weight[channel] * growth[channel] * more;
         }
     }
     sum
 }
 
-/// A sum over taps under one map, ready for hits.
+/// A sum over orders under one map, ready for hits.
 pub struct Sums<'d> {
     painter: Painter<'d>,
     blocks: Vec<[f32; 1]>,
@@ -80,8 +81,12 @@ impl<'d> Sums<'d> {
     ///
     /// # Errors
     /// [`RenderError`] if it does not compile.
-    pub fn new(map: &SphereMap, taps: &Taps, backend: Backend<'d>) -> Result<Self, RenderError> {
-        let (kernel, blocks) = sum(map, taps)?;
+    pub fn new(
+        map: &SphereMap,
+        orders: &Orders,
+        backend: Backend<'d>,
+    ) -> Result<Self, RenderError> {
+        let (kernel, blocks) = sum(map, orders)?;
         Ok(Self { painter: Painter::new(vec![kernel], backend)?, blocks })
     }
 
@@ -94,23 +99,29 @@ impl<'d> Sums<'d> {
     }
 }
 
-/// The sum over `taps` at `hits` as something to time.
+/// The sum over `orders` at `hits` as something to time.
 ///
 /// # Errors
 /// [`RenderError`] if the kernel does not parse.
-pub(super) fn timed(map: &SphereMap, hits: &[Hit], taps: &Taps) -> Result<TimedPass, RenderError> {
-    let (kernel, blocks) = sum(map, taps)?;
+pub(super) fn timed(
+    map: &SphereMap,
+    hits: &[Hit],
+    orders: &Orders,
+) -> Result<TimedPass, RenderError> {
+    let (kernel, blocks) = sum(map, orders)?;
     Ok(TimedPass::summed(kernel, &hit_columns(hits), [0.0], blocks.len()))
 }
 
 /// The kernel of a sum, and the first tap of each block that one evaluation takes.
-fn sum(map: &SphereMap, taps: &Taps) -> Result<(Kernel, Vec<[f32; 1]>), RenderError> {
-    let per_evaluation = taps.count().clamp(1, MOST_TAPS);
-    let blocks = (0..taps.count()).step_by(per_evaluation).map(|first| [first as f32]).collect();
-    Ok((kernel(TEXT, "surface_sum", map, taps, per_evaluation, Vec::new())?, blocks))
+fn sum(map: &SphereMap, orders: &Orders) -> Result<(Kernel, Vec<[f32; 1]>), RenderError> {
+    let count = orders.taps.count();
+    let per_evaluation = count.clamp(1, MOST_TAPS);
+    let blocks = (0..count.max(1)).step_by(per_evaluation).map(|first| [first as f32]).collect();
+    let kernel = kernel(TEXT, "surface_sum", map, (&orders.taps, orders), per_evaluation, None)?;
+    Ok((kernel, blocks))
 }
 
-/// A kernel over one map and its taps, and `more` tables.
+/// A kernel over one map and taps that stand for `orders`, and one more table.
 ///
 /// # Errors
 /// [`RenderError::Form`] if the text does not load.
@@ -118,12 +129,22 @@ pub(super) fn kernel(
     text: &str,
     function: &str,
     map: &SphereMap,
-    taps: &Taps,
+    (taps, orders): (&Taps, &Orders),
     per_evaluation: usize,
-    more: Vec<DataTable>,
+    more: Option<DataTable>,
 ) -> Result<Kernel, RenderError> {
-    let (text, layer) = ((text, FILE, function), std::slice::from_ref(map));
-    sphere_map::kernel(text, layer, taps, per_evaluation, STILL, more)
+    let factors: Vec<[f32; 3]> =
+        orders.growth.factors().iter().map(|rgb| rgb.map(|factor| factor as f32)).collect();
+    let [r, g, b] = orders.total.map(|share| share as f32);
+    let text = format!(
+        "{text}\nconst ORDER_TOTAL = vec3<f32>({r:?}, {g:?}, {b:?});\n\
+         const GROWTH_STEPS = {}u;\n",
+        factors.len() - 1
+    );
+    let mut tables = vec![DataTable::vectors("order_growth", &factors)];
+    tables.extend(more);
+    let (text, layer) = ((text.as_str(), FILE, function), std::slice::from_ref(map));
+    sphere_map::kernel(text, layer, taps, per_evaluation, STILL, tables)
 }
 
 /// Reflection, normal and first direction of hits, as kernels take them.

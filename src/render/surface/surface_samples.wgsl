@@ -1,9 +1,9 @@
-// Eq. 3 of toisoul2017 at a point of a surface by Monte Carlo: cells of the table drawn in proportion to
+// The sum over a diffraction table at a point of a surface by Monte Carlo: cells of the table drawn in proportion to
 // their weight. Taps as in surface_sum.wgsl, with weights over the probability of a draw.
 //
 // alias_table: per cell the chance that it stands for itself, and the cell that does otherwise.
 
-@group(1) @binding(2) var<storage, read> alias_table: array<vec2<f32>>;
+@group(1) @binding(3) var<storage, read> alias_table: array<vec2<f32>>;
 
 fn surface_samples(
     reflection: vec3<f32>,
@@ -14,7 +14,8 @@ fn surface_samples(
 ) -> vec3<f32> {
     let beside = cross(normal, along);
     let mirror = vec2<f32>(dot(reflection, along), dot(reflection, beside));
-    let mu_o = max(dot(reflection, normal), 1e-4);
+    let mu_o = dot(reflection, normal);
+    let mirrored = radiance(reflection, 0);
     let cells = u32(tap_count);
     var sum = vec3<f32>(0.0, 0.0, 0.0);
     for (var draw = 0u; draw < SAMPLE_DRAWS; draw++) {
@@ -22,7 +23,7 @@ fn surface_samples(
         let cell = min(u32(u.x * tap_count), cells - 1u);
         let entry = alias_table[cell];
         let tap = select(u32(entry.y), cell, u.y <= entry.x);
-        sum += from_tap(tap, mirror, mu_o, along, beside, normal);
+        sum += from_tap(tap, mirror, mu_o, mirrored, along, beside, normal);
     }
-    return sum / f32(SAMPLE_DRAWS);
+    return ORDER_TOTAL * mirrored + sum / f32(SAMPLE_DRAWS);
 }

@@ -12,6 +12,7 @@ use crate::effect::Finding;
 use crate::gate::Judgement;
 use crate::numeric::measured::Measured;
 use crate::render::claims::findings;
+use crate::render::image::Image;
 use crate::render::scene::{LightShape, Scene};
 use crate::render::sheet::comparison;
 use crate::render::view::Projection;
@@ -104,6 +105,7 @@ fn seen(scene: &Scene) -> String {
 pub fn scene_tables(rendered: &Rendered) -> Vec<Block> {
     let notice = |level, text: String| Block::Notice { level, text: text.into() };
     let mut blocks: Vec<Block> = vec![errors(rendered).into()];
+    blocks.extend(negative(&rendered.reference).map(|text| notice(NoticeLevel::Info, text)));
     if let Measured::NotMeasured(reason) = &rendered.times {
         blocks.push(notice(NoticeLevel::NotMeasured, format!("Times: {reason}")));
     }
@@ -116,6 +118,20 @@ pub fn scene_tables(rendered: &Rendered) -> Vec<Block> {
     blocks.extend(rendered.monte_carlo.as_ref().map(monte_carlo));
     blocks.extend(rendered.details.blocks.iter().cloned());
     blocks
+}
+
+/// What of the reference FLIP cannot see: light outside the gamut of linear sRGB.
+fn negative(reference: &Image) -> Option<String> {
+    let values = reference.channels.iter().flat_map(|channel| &channel.values);
+    let (count, below, lowest) = values.fold((0, 0, 0.0_f32), |(count, below, lowest), value| {
+        (count + 1, below + usize::from(*value < 0.0), lowest.min(*value))
+    });
+    (below > 0).then(|| {
+        format!(
+            "{below} of {count} values of the reference are below 0, the lowest {lowest:.3}: colours \
+             outside the gamut of linear sRGB. FLIP takes them as 0; RMS and means do not"
+        )
+    })
 }
 
 fn errors(rendered: &Rendered) -> PrintedTable {

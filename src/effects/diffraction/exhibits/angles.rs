@@ -76,57 +76,93 @@ pub(super) fn one_table() -> Result<Section, ClaimError> {
     Ok(exhibit.table(angles).table(rings).section())
 }
 
-/// Mean of 1/cos θ over the disc |h| ≤ `extent`: 2 (1 − √(1 − u²))/u².
-pub(in crate::effects::diffraction) fn mean_over_disc(extent: f64) -> f64 {
-    let square = extent * extent;
-    2.0 * square / (1.0 + (1.0 - square).sqrt()) / square
+/// Relative error of (w/2)² S at w = 2 in the zero order of a rectangular grating of half duty, cos²(k w D/2).
+pub(in crate::effects::diffraction) fn zero_order_error(depth_nm: f64, incidence: f64) -> f64 {
+    let k = std::f64::consts::TAU / GREEN_NM;
+    let w = 1.0 + core_math::cos(incidence);
+    let order = |w: f64| core_math::cos(0.5 * k * w * depth_nm).powi(2);
+    0.25 * w * w * order(NORMAL) / order(w) - 1.0
 }
 
-/// For a disc under a white sky, away from the mirror (|h| > 0.12) and up to each half-width: Σ ((1 + ω_i·ω_o)²/4) S_d ΔA
-/// as printed, and with 1/cos θ_i.
-pub(in crate::effects::diffraction) fn disc_furnace(
-    extents: &[f64],
-) -> Result<Vec<(f64, f64, f64)>, DiffractionError> {
+/// What comes back of a white sky at normal exitance, over what should: with ((1 + c)/2)² S_d as in eq. 5
+/// to 7, and with 1/c beside it, the solid angle of eq. 3.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::effects::diffraction) struct WhiteSky {
+    pub(in crate::effects::diffraction) half_width: f64,
+    pub(in crate::effects::diffraction) printed: f64,
+    pub(in crate::effects::diffraction) with_solid_angle: f64,
+}
+
+/// Of a table of one value over the disc |h| ≤ `half_width`: means over h dh = c dc.
+pub(in crate::effects::diffraction) fn even_table(half_width: f64) -> WhiteSky {
+    let square = half_width * half_width;
+    let c = (1.0 - square).sqrt();
+    // 1 − c without cancellation.
+    let cap = square / (1.0 + c);
+    let powers = |n: i32| (0..n).map(|i| c.powi(i)).sum::<f64>() * cap / f64::from(n);
+    let printed = 0.5 * (powers(2) + 2.0 * powers(3) + powers(4));
+    let with_solid_angle = 0.5 * (powers(1) + 2.0 * powers(2) + powers(3));
+    WhiteSky { half_width, printed: printed / square, with_solid_angle: with_solid_angle / square }
+}
+
+/// Of a disc, away from the mirror (|h| > 0.12) and up to each half-width.
+pub(in crate::effects::diffraction) fn disc_in_white_sky(
+    half_widths: &[f64],
+) -> Result<Vec<WhiteSky>, DiffractionError> {
     const SIZE: usize = 257;
     let surface = disc()?;
     let field = FarFieldTransform::new(&surface, 1)?.far_field(&surface, GREEN_NM, NORMAL);
     let (texels, [x, _]) = at_wavelength(&field, [SIZE, SIZE], 1.0);
     let centres = x.centres();
-    let sums = |extent: f64| {
-        let (mut printed, mut whole) = (0.0, 0.0);
+    let sums = |half_width: f64| {
+        let (mut all, mut printed, mut with_solid_angle) = (0.0, 0.0, 0.0);
         for (row, hy) in texels.chunks(SIZE).zip(&centres) {
             for (power, hx) in row.iter().zip(&centres) {
                 let square = hx * hx + hy * hy;
-                if square <= extent * extent && square > 0.0144 {
-                    let cosine = (1.0 - square).sqrt();
-                    let share = 0.25 * (1.0 + cosine) * (1.0 + cosine) * power;
+                if square <= half_width * half_width && square > 0.0144 {
+                    let c = (1.0 - square).sqrt();
+                    let share = 0.25 * (1.0 + c) * (1.0 + c) * power;
+                    all += power;
                     printed += share;
-                    whole += share / cosine;
+                    with_solid_angle += share / c;
                 }
             }
         }
-        (extent, printed, whole)
+        WhiteSky { half_width, printed: printed / all, with_solid_angle: with_solid_angle / all }
     };
-    Ok(extents.iter().map(|e| sums(*e)).collect())
+    Ok(half_widths.iter().map(|half_width| sums(*half_width)).collect())
 }
 
-/// The solid angle of a texel.
-pub(super) fn solid_angle() -> Result<Section, ClaimError> {
+/// (1 + ω_i·ω_o)²/(4 cos θ_i cos θ_o) at the mirror direction: what a mirror returns by Stam's factor beside
+/// a table at w = 2.
+pub(in crate::effects::diffraction) fn mirror_by_stam(angle: f64) -> f64 {
+    let (both, c) = (1.0 + core_math::cos(2.0 * angle), core_math::cos(angle));
+    both * both / (4.0 * c * c)
+}
+
+/// What factors beside S_d make of a white sky.
+pub(super) fn white_sky() -> Result<Section, ClaimError> {
     let widths: Vec<f64> = (1..=49).map(|i| 0.02 * f64::from(i)).collect();
-    let edge = |u: f64| 1.0 / (1.0 - u * u).sqrt();
-    let missing = |(u, printed, whole): (f64, f64, f64)| (u, whole / printed - 1.0);
     let shown: Vec<f64> = widths.iter().copied().filter(|u| *u >= 0.2).collect();
-    let at_edge = widths.iter().map(|&u| (u, edge(u) - 1.0));
-    let even = widths.iter().map(|&u| (u, mean_over_disc(u) - 1.0));
-    let of_disc = disc_furnace(&shown)?.into_iter().map(missing);
-    let rows = disc_furnace(&[0.25, 0.5, 0.75, 0.9, 0.98])?.into_iter().map(missing);
-    let rows = rows.map(|(u, of_disc)| {
-        [u, edge(u) - 1.0, mean_over_disc(u) - 1.0, of_disc].map(Cell::from).to_vec()
-    });
+    let printed = |of: WhiteSky| (of.half_width, of.printed);
+    let whole = |of: WhiteSky| (of.half_width, of.with_solid_angle);
+    let even = || widths.iter().copied().map(even_table);
+    let of_disc = disc_in_white_sky(&shown)?;
+    let disc = || of_disc.iter().copied();
     let curves = [
-        Series::dashed("at the edge", at_edge),
-        Series::line("even table", even),
-        Series::line("disc", of_disc).strong(),
+        Series::dashed("even table, eq. 5 to 7", even().map(printed)),
+        Series::line("disc, eq. 5 to 7", disc().map(printed)),
+        Series::dashed("even table, eq. 3", even().map(whole)),
+        Series::line("disc, eq. 3", disc().map(whole)),
     ];
-    Ok(Exhibit::of(TEXTS, "jacobian", &[]).figure(curves).table(rows).section())
+    let rows = disc_in_white_sky(&[0.25, 0.5, 0.75, 0.9, 0.98])?.into_iter().map(|of| {
+        let even = even_table(of.half_width);
+        [of.half_width, even.printed, of.printed, even.with_solid_angle, of.with_solid_angle]
+            .map(Cell::from)
+            .to_vec()
+    });
+    let mirror = [0.0_f64, 20.0, 45.0, 51.7, 75.0]
+        .map(|degrees| vec![degrees.into(), mirror_by_stam(degrees.to_radians()).into()]);
+    let exhibit = Exhibit::of(TEXTS, "white_sky", &[]).figure(curves);
+    Ok(exhibit.table(rows).table(mirror).section())
 }

@@ -8,7 +8,8 @@ mod sections;
 mod wavelengths;
 
 pub(super) use angles::{
-    disc_furnace, fixed_cosine_error, grating_error as cosine_error, mean_over_disc,
+    disc_in_white_sky, even_table, fixed_cosine_error, grating_error as cosine_error,
+    mirror_by_stam, zero_order_error,
 };
 pub(super) use wavelengths::rule_errors;
 
@@ -40,7 +41,7 @@ pub(super) fn exhibits(_: &Candidates) -> Result<Vec<Section>, ClaimError> {
         preparation::exhibit()?,
         wavelengths::exhibit()?,
         angles::one_table()?,
-        angles::solid_angle()?,
+        angles::white_sky()?,
     ])
 }
 
