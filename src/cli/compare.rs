@@ -14,7 +14,7 @@ use crate::render::compare::error_map::ErrorMap;
 use crate::render::compare::flip::{self, FlipMap, STANDARD_PIXELS_PER_DEGREE};
 use crate::render::compare::metrics::ImageDifference;
 use crate::render::compare::z_test::{Pooling, ZTest};
-use crate::render::compare::{CompareError, Exposures};
+use crate::render::compare::{CompareError, ExposureRule, Exposures};
 use crate::render::image::{Format, Image};
 use crate::table::{ReadOptions, Table};
 
@@ -66,6 +66,9 @@ pub(super) struct Arguments {
     /// Compare for FLIP what a display shows at this exposure, in stops from -100 to 100
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true)]
     exposure: Option<f64>,
+    /// Choose the exposures of HDR-FLIP by the pixels of B that are not black
+    #[arg(long, conflicts_with = "exposure")]
+    lit_pixels: bool,
     /// Pixels per degree of the observer, from 1 to 1000
     #[arg(long, value_name = "PIXELS", default_value_t = STANDARD_PIXELS_PER_DEGREE)]
     ppd: f64,
@@ -175,7 +178,11 @@ fn flip(arguments: &Arguments, test: &Image, reference: &Image) -> anyhow::Resul
     if !(is_hdr(&arguments.a) || is_hdr(&arguments.b)) {
         return Ok(described(ldr(0.0)?, "LDR".to_owned()));
     }
-    match Exposures::of(reference) {
+    let rule = match arguments.lit_pixels {
+        true => ExposureRule::LitPixels,
+        false => ExposureRule::Standard,
+    };
+    match Exposures::of(reference, rule) {
         Ok(exposures) => {
             let Exposures { start, stop, count, rule } = exposures;
             let rule = rule.name();

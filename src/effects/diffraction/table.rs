@@ -1,7 +1,8 @@
 //! Diffraction tables: S_d over the projected, not normalised half vector.
 //!
-//! A texel holds the mean of S_d over itself, its power over its area, so that Σ S_d ΔA is the share of
-//! the reflected power that the table covers. With an odd number of texels the mirror direction h = 0
+//! A texel holds the power of the cells of the transform that lie in it, over its area, so that Σ S_d ΔA is
+//! the share of the reflected power that the table covers. It is the mean of S_d over the texel as far as
+//! cells, each taken as uniform, are small beside one: `simulate` says what twice the padding changes. With an odd number of texels the mirror direction h = 0
 //! lies in the middle of one, with an even number at the corner of four; either way the centroid of an
 //! order is where the order is, to the texel's own resolution.
 

@@ -29,9 +29,11 @@ pub struct Exposures {
 /// Where exposures come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExposureRule {
-    /// From all pixels of the reference, as HDR-FLIP says.
+    /// From all pixels of the reference, as its authors' program does: a median of 0 counts as
+    /// f32's machine epsilon.
     Standard,
-    /// From pixels that are not black: where more than half are, the standard has no last exposure.
+    /// From pixels that are not black: on a dark background the standard looks at exposures at which all
+    /// that is lit is white.
     LitPixels,
 }
 
@@ -46,12 +48,11 @@ impl ExposureRule {
 }
 
 impl Exposures {
-    /// The exposures of the standard. Where the reference's median luminance is 0 it defines none;
-    /// then the median of the lit pixels is taken, and [`Exposures::rule`] says so.
+    /// The exposures for `reference` by `rule`.
     ///
     /// # Errors
     /// [`CompareError::Unusable`] without colours; [`CompareError::Setting`] if no pixel is lit.
-    pub fn of(reference: &Image) -> Result<Self, CompareError> {
+    pub fn of(reference: &Image, rule: ExposureRule) -> Result<Self, CompareError> {
         let colours = reference.colours().map_err(|fault| unusable(REFERENCE, &fault))?;
         let luminance = |c: [f32; 3]| {
             let [r, g, b] = c.map(|component| f64::from(component).max(0.0));
@@ -69,13 +70,12 @@ impl Exposures {
                 got: brightest,
             });
         }
-        let (middle, rule) = match median(&luminances) {
-            middle if middle > 0.0 => (middle, ExposureRule::Standard),
-            _ => {
-                let lit = luminances.partition_point(|y| *y <= 0.0);
-                (median(luminances.get(lit..).unwrap_or_default()), ExposureRule::LitPixels)
-            }
+        let first = match rule {
+            ExposureRule::Standard => 0,
+            ExposureRule::LitPixels => luminances.partition_point(|y| *y <= 0.0),
         };
+        let middle = median(luminances.get(first..).unwrap_or_default());
+        let middle = middle.max(f64::from(f32::EPSILON));
         let shoulder = shoulder();
         let (start, stop) = ((shoulder / brightest).log2(), (shoulder / middle).log2());
         Ok(Self { start, stop, count: (stop - start).ceil().max(2.0) as usize, rule })
@@ -111,13 +111,17 @@ mod tests {
     }
 
     #[test]
-    fn a_dark_background_is_said() {
+    fn a_dark_background_counts_unless_it_is_left_out() {
         let image = |colours: &[[f32; 3]]| Image::rgb(colours.len(), 1, colours);
-        let lit = Exposures::of(&image(&[[1.0; 3], [4.0; 3], [2.0; 3]])).expect("lit");
-        assert_eq!(lit.rule, ExposureRule::Standard);
+        let of = |colours: &[[f32; 3]], rule| Exposures::of(&image(colours), rule);
+        let lit = of(&[[1.0; 3], [4.0; 3], [2.0; 3]], ExposureRule::Standard).expect("lit");
         assert!((lit.stop - lit.start - 1.0).abs() < 1e-12 && lit.count == 2);
-        let dark = Exposures::of(&image(&[[0.0; 3], [0.0; 3], [2.0; 3]])).expect("one is lit");
-        assert_eq!((dark.rule, dark.stop), (ExposureRule::LitPixels, dark.start));
-        assert!(Exposures::of(&image(&[[0.0; 3]])).is_err());
+        let dark = [[0.0; 3], [0.0; 3], [2.0; 3]];
+        // As flip-evaluator 1.7 says of a median of 0.
+        let standard = of(&dark, ExposureRule::Standard).expect("one is lit");
+        assert!((standard.stop - 24.083_297_73).abs() < 1e-6, "{standard:?}");
+        let lit = of(&dark, ExposureRule::LitPixels).expect("one is lit");
+        assert_eq!(lit.stop, lit.start);
+        assert!(of(&[[0.0; 3]], ExposureRule::Standard).is_err());
     }
 }
