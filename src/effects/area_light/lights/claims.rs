@@ -1,6 +1,6 @@
 //! Claims of velinov2018 on area lights, recomputed.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use super::draws::Draw;
 use super::errors::{exact, light_of, named, relative_l2, single};
@@ -10,8 +10,6 @@ use crate::effect::{Candidates, ClaimError, Found};
 
 /// Checks of the claims, by name.
 pub(in super::super) const CLAIMS: &[(&str, ClaimCheck<Candidates>)] = &[
-    ("exponent", exponent),
-    ("largest_deviation", largest_deviation),
     ("disc", disc),
     ("second_root", second_root),
     ("sign_of_zero", sign_of_zero),
@@ -19,42 +17,6 @@ pub(in super::super) const CLAIMS: &[(&str, ClaimCheck<Candidates>)] = &[
     ("single_line", single_line),
     ("normalization", normalization),
 ];
-
-fn exponent(_: &Candidates) -> Result<Found, ClaimError> {
-    // σ = 60 µm at 550 nm, one standard deviation of intensity off the line.
-    let ks = TAU / 0.55 * 60.0;
-    let off = 1.0 / (2.0_f64.sqrt() * ks);
-    let [above, below] = [off, -off].map(|xi_1| (-ks * ks * xi_1).exp());
-    let found = format!(
-        "at xi_1 = ±{off:.3e}, one standard deviation for sigma 60 um and 550 nm, the printed weight is \
-         exp(∓{:.0}), that of eq. 10, exp(-sigma^2 k^2 xi_1^2), is {:.3} on both sides",
-        ks * ks * off,
-        (-ks * ks * off * off).exp()
-    );
-    // A weight of a lobe is the same on both sides, and at most 1.
-    let holds = above == below;
-    Ok(Found::new(
-        found,
-        if holds { "holds" } else { "does not hold: the square of xi_1 is missing" },
-    ))
-}
-
-fn largest_deviation(_: &Candidates) -> Result<Found, ClaimError> {
-    let deviation = |wavelength_um: f64| wavelength_um / (2.0 * 2.0_f64.sqrt() * PI * 60.0);
-    let [nanometres, micrometres] = [deviation(0.75), deviation(750.0)];
-    // Six digits are printed.
-    let printed = |value: f64| (value / 1.40674e-3 - 1.0).abs() < 5e-6;
-    let found = format!(
-        "lambda/(2 sqrt(2) pi sigma) with sigma = 60 um is {nanometres:.5e} for 750 nm and \
-         {micrometres:.5} for 750 um"
-    );
-    let verdict = match (printed(nanometres), printed(micrometres)) {
-        (true, false) => "holds for 750 nm, with pi and sigma outside the root",
-        (false, true) => "holds with pi and sigma outside the root",
-        _ => "does not hold",
-    };
-    Ok(Found::new(found, verdict))
-}
 
 fn disc(_: &Candidates) -> Result<Found, ClaimError> {
     let ratios = [0.1_f64, 0.5, 0.9];
