@@ -37,7 +37,8 @@
 //! | `approximation.sphere`, `.polygon` | | of a scratch: the candidate that shades lights of that kind, by any of its names: `effect/name`, `form:effect/name`, `FILE.wgsl#function` |
 //! | `approximation.method` | | of a diffractive surface: `"two_pass"`, `"printed"` (alg. 1 read literally), `"sum"` (two directional blurs), `"line"` (1D along the first direction) or `"reconstructed"` (that sum with the table that the factors give) |
 //! | `approximation.rank` | | of `two_pass`, `printed` and `reconstructed`, 1 if left out |
-//! | `approximation.factors` | | `"svd"`, or `"convolution"`: of least error after convolution with the environments |
+//! | `approximation.factors` | | `"svd"`, or `"convolution"`: of least error after convolution with environments |
+//! | `approximation.fitted_to` | | of factors `"convolution"`: the maps, as of `light.map`; those of the lights if left out |
 //! | `[budget.NAME]` | | `relative_rms`, `flip` or both: limits for the approximation called NAME |
 //! | `[choice]` | | `relative_rms`, `flip` or both: the cheapest approximation within them is picked and said |
 //! | `[[claim]] check` | | what a paper prints and this scene shows: one of [`super::claims::CHECKS`] |
@@ -269,13 +270,14 @@ pub enum Method {
 }
 
 /// Which factors of a table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Factors {
     /// Of the singular value decomposition.
     Svd,
-    /// Of least error after convolution with the environments.
-    Convolution,
+    /// Of least error after convolution with these environments; with those that light the scene, if there
+    /// are none.
+    Convolution(Vec<String>),
 }
 
 /// Limits on the error of an approximation.
@@ -306,8 +308,11 @@ impl Method {
         match self {
             Self::Forms { .. } => self.candidates().join(", "),
             Self::TwoPass { rank, factors: Factors::Svd } => format!("two passes, rank {rank}"),
-            Self::TwoPass { rank, factors: Factors::Convolution } => {
-                format!("two passes, rank {rank}, fitted after convolution")
+            Self::TwoPass { rank, factors: Factors::Convolution(maps) } if maps.is_empty() => {
+                format!("two passes, rank {rank}, fitted to the maps that it is judged under")
+            }
+            Self::TwoPass { rank, factors: Factors::Convolution(maps) } => {
+                format!("two passes, rank {rank}, fitted to {}", maps.join(", "))
             }
             Self::Printed { rank } => format!("alg. 1 as printed, rank {rank}"),
             Self::Sum => "sum of two directional blurs".into(),

@@ -332,7 +332,7 @@ fn forms(mut section: Section, lights: &[Light]) -> Result<Method, RenderError> 
     let lit = |of: fn(&LightShape) -> bool| lights.iter().any(|light| of(&light.shape));
     let sphere = of("sphere", lit(|shape| matches!(shape, LightShape::Sphere { .. })))?;
     let polygon = of("polygon", lit(|shape| matches!(shape, LightShape::Polygon(_))))?;
-    section.done(&["method", "rank", "factors"], "material.kind = \"scratch\"")?;
+    section.done(&["method", "rank", "factors", "fitted_to"], "material.kind = \"scratch\"")?;
     Ok(Method::Forms { sphere, polygon })
 }
 
@@ -343,8 +343,11 @@ fn convolved(mut section: Section) -> Result<Method, RenderError> {
     let method = match name {
         "two_pass" => {
             let rank = rank()?;
-            let ways = [("svd", Factors::Svd), ("convolution", Factors::Convolution)];
-            let factors = section.named("factors", &ways)?.or(Factors::Svd);
+            let ways = [("svd", false), ("convolution", true)];
+            let factors = match section.named("factors", &ways)?.or(false) {
+                true => Factors::Convolution(section.texts("fitted_to")?.or(Vec::new())),
+                false => Factors::Svd,
+            };
             Method::TwoPass { rank, factors }
         }
         "printed" => Method::Printed { rank: rank()? },
@@ -352,7 +355,7 @@ fn convolved(mut section: Section) -> Result<Method, RenderError> {
         "sum" => Method::Sum,
         _ => Method::Line,
     };
-    let elsewhere = ["rank", "factors", "sphere", "polygon"];
+    let elsewhere = ["rank", "factors", "fitted_to", "sphere", "polygon"];
     section.done(&elsewhere, &format!("method = \"{name}\""))?;
     Ok(method)
 }

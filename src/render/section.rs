@@ -193,6 +193,14 @@ impl Section {
         self.take(key, "text in quotes", |value| value.as_str().map(str::to_owned))
     }
 
+    /// Texts.
+    pub(super) fn texts(&mut self, key: &'static str) -> Result<Entry<Vec<String>>, RenderError> {
+        self.take(key, "texts in quotes, in brackets", |value| {
+            let texts = value.as_array()?.iter();
+            texts.map(|text| text.as_str().map(str::to_owned)).collect()
+        })
+    }
+
     /// `true` or `false`.
     pub(super) fn flag(&mut self, key: &'static str) -> Result<Entry<bool>, RenderError> {
         self.take(key, "true or false", Value::as_bool)

@@ -11,7 +11,7 @@ use crate::measured::MeasuredError;
 use crate::measured::environment::Environment;
 use crate::measured::spectra::Spectra;
 use crate::render::RenderError;
-use crate::render::scene::{Factors, TableSource};
+use crate::render::scene::TableSource;
 use crate::render::sphere_map::{AngularKernel, Taps, along};
 use crate::table::Grid;
 
@@ -34,22 +34,15 @@ pub struct DiffractionKernels {
     /// It over the angles of the passes.
     pub angular: AngularKernel,
     decomposition: Decomposition,
-    seen: Vec<Environment>,
 }
 
 impl DiffractionKernels {
-    /// Reads or simulates a table and, with `align`, straightens it; `seen` are the environments for
-    /// factors of least error after convolution.
+    /// Reads or simulates a table and, with `align`, straightens it.
     ///
     /// # Errors
     /// [`RenderError`]: a table that does not load or has other axes or channels, settings that the
     /// simulator refuses, or one that cannot be factorised.
-    pub fn new(
-        source: &TableSource,
-        align: bool,
-        spectra: &Spectra,
-        seen: Vec<Environment>,
-    ) -> Result<Self, RenderError> {
+    pub fn new(source: &TableSource, align: bool, spectra: &Spectra) -> Result<Self, RenderError> {
         let (table, growth) = table(source, spectra)?;
         let alignment = if align {
             main_directions(&table, &SearchOptions::default())?.alignment
@@ -59,20 +52,29 @@ impl DiffractionKernels {
         let angular = AngularKernel::new(&table, &alignment, &growth);
         let decomposition = Decomposition::of_aligned(&angular.grid, alignment)?;
         let orders = Orders::of_table(&table, growth);
-        Ok(Self { table, orders, alignment, angular, decomposition, seen })
+        Ok(Self { table, orders, alignment, angular, decomposition })
     }
 
-    /// Factors of the kernel.
+    /// Factors of the kernel by singular value decomposition.
+    ///
+    /// # Errors
+    /// [`RenderError::LowRank`]: a rank above that of the table.
+    pub fn factors(&self, rank: usize) -> Result<LowRank, RenderError> {
+        Ok(self.decomposition.low_rank(rank)?)
+    }
+
+    /// Factors of the kernel of least error after convolution with `environments`.
     ///
     /// # Errors
     /// [`RenderError::LowRank`]: a rank above that of the table, environments without light.
-    pub fn factors(&self, rank: usize, factors: Factors) -> Result<LowRank, RenderError> {
-        if factors == Factors::Svd {
-            return Ok(self.decomposition.low_rank(rank)?);
-        }
+    pub fn factors_after_convolution(
+        &self,
+        rank: usize,
+        environments: &[Environment],
+    ) -> Result<LowRank, RenderError> {
         let grid = &self.angular.grid;
         let options = NormOptions { alignment: self.alignment, ..NormOptions::default() };
-        let norm = ConvolutionNorm::from_environments(&self.seen, grid.x(), grid.y(), &options)?;
+        let norm = ConvolutionNorm::from_environments(environments, grid.x(), grid.y(), &options)?;
         let fitted = convolved(grid, self.alignment, rank, &norm, &ConvolvedOptions::default())?;
         Ok(fitted.0)
     }

@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use super::kernels::DiffractionKernels;
 use super::orders::Orders;
 use super::sums::{columns, timed};
+use crate::measured::environment::Environment;
 use crate::render::RenderError;
 use crate::render::backend::Backend;
 use crate::render::geometry::{Frame, Geometry, Hit};
@@ -26,17 +27,22 @@ pub(super) enum Plan {
 }
 
 impl Plan {
-    /// Of a method.
+    /// Of a method; `environments` reads those that factors are fitted to.
     ///
     /// # Errors
     /// [`RenderError`] if the table cannot be factorised so, or forms shade and nothing is summed.
-    pub(super) fn new(method: &Method, kernels: &DiffractionKernels) -> Result<Self, RenderError> {
+    pub(super) fn new(
+        method: &Method,
+        kernels: &DiffractionKernels,
+        environments: impl Fn(&[String]) -> Result<Vec<Environment>, RenderError>,
+    ) -> Result<Self, RenderError> {
         let two = |factors| Self::Passes(kernels.angular.passes(&factors).into());
         Ok(match method {
-            Method::TwoPass { rank, factors } => two(kernels.factors(*rank, *factors)?),
-            Method::Printed { rank } => {
-                two(kernels.factors(*rank, Factors::Svd)?.cross_rank_printed())
+            Method::TwoPass { rank, factors: Factors::Svd } => two(kernels.factors(*rank)?),
+            Method::TwoPass { rank, factors: Factors::Convolution(maps) } => {
+                two(kernels.factors_after_convolution(*rank, &environments(maps)?)?)
             }
+            Method::Printed { rank } => two(kernels.factors(*rank)?.cross_rank_printed()),
             Method::Sum => Self::Passes(vec![vec![kernels.blurs()?]]),
             Method::Line => Self::Sums(kernels.line()?),
             Method::Reconstructed { rank } => Self::Sums(kernels.reconstructed(*rank)?),

@@ -9,7 +9,7 @@ mod sampling;
 mod sums;
 
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 pub use angles::AngleError;
@@ -47,6 +47,9 @@ pub(super) struct Surface {
     frames: Vec<Lit>,
     approximations: Vec<(Method, OnceLock<Plan>)>,
     operator: OnceLock<AzimuthalOperator>,
+    /// Environments of its lights, and where others are.
+    environments: Vec<Environment>,
+    data: PathBuf,
 }
 
 /// Shades what is met in one frame.
@@ -81,16 +84,17 @@ impl Surface {
             frames.push(lit);
         }
         let spectra = Spectra::load(&project.data().join("spectra"))?;
-        let seen = environments.into_iter().map(|(_, _, environment)| environment).collect();
         let methods = scene.approximations.iter().map(|of| of.method.clone());
         Ok(Self {
             reference: scene.reference,
             reflectance: material.reflectance,
             convolution,
-            kernels: DiffractionKernels::new(&material.table, convolution.align, &spectra, seen)?,
+            kernels: DiffractionKernels::new(&material.table, convolution.align, &spectra)?,
             frames,
             approximations: methods.map(|method| (method, OnceLock::new())).collect(),
             operator: OnceLock::new(),
+            environments: environments.into_iter().map(|(.., environment)| environment).collect(),
+            data: project.data(),
         })
     }
 
@@ -101,7 +105,11 @@ impl Surface {
         match plan.get() {
             Some(plan) => Ok(plan),
             None => {
-                let made = Plan::new(method, &self.kernels)?;
+                let environments = |maps: &[String]| match maps {
+                    [] => Ok(self.environments.clone()),
+                    maps => maps.iter().map(|map| environment(map, &self.data)).collect(),
+                };
+                let made = Plan::new(method, &self.kernels, environments)?;
                 Ok(plan.get_or_init(|| made))
             }
         }
