@@ -3,15 +3,18 @@
 mod accuracy;
 mod checking;
 mod costs;
+mod counting;
 mod fitting;
 mod reporting;
 
 use rayon::prelude::*;
 
 pub use accuracy::{accuracy_table, write_accuracy};
-pub use costs::{cost_table, write_costs};
+pub use costs::{cost_table, counted_table, write_costs, write_counted};
+pub use counting::{CountedCandidate, OnTarget};
 pub use fitting::{Job, fit};
 
+use crate::counted::Counter;
 use crate::effect::{Candidates, Effect, Member};
 use crate::fit;
 use crate::gpu::{self, Device, TimingOptions};
@@ -37,6 +40,8 @@ pub struct Run {
     pub scenes: Scenes,
     /// What fits share.
     pub fits: fit::Context,
+    /// What counts costs on GPUs that need not be there, and what it has counted.
+    pub counter: Counter,
     /// How kernels are timed: briefly, unless a caller wants more.
     pub timing: TimingOptions,
 }
@@ -163,6 +168,7 @@ impl Run {
             atlas: Atlas::default(),
             scenes: Scenes::default(),
             fits: fit::Context::new(project.root(), project.registry()),
+            counter: Counter::default(),
             timing: TimingOptions::brief(),
         }
     }
@@ -197,23 +203,28 @@ impl Run {
         subjects: Vec<Subject>,
         candidates: &Candidates,
     ) -> Result<Judged, RunError> {
-        // A project of the user's own may have no measured data: its families are not measured.
-        let families = match self.project.data().is_dir() {
-            true => effect.families,
-            false => &[],
-        };
-        let members = families
-            .par_iter()
-            .map(|family| {
-                (family.members)(&self.project.data(), true)
-                    .map_err(|source| RunError::Family { family: family.name, source })
-            })
-            .collect::<Result<Vec<_>, _>>()?;
+        let members = self.members(effect)?;
         let Self { project, atlas, device, .. } = self;
         let study = study(effect, &subjects, &members, candidates, project, atlas, device)?;
         let forms = timed(effect, &subjects, &members, project, atlas)?;
         let references = timed_references(effect, atlas)?;
         Ok(Judged { effect, subjects, study, forms, references, members })
+    }
+
+    /// Held-out members of each family of `effect`.
+    fn members(&self, effect: &'static Effect) -> Result<Vec<Vec<Member>>, RunError> {
+        // A project of the user's own may have no measured data: its families are not measured.
+        let families = match self.project.data().is_dir() {
+            true => effect.families,
+            false => &[],
+        };
+        families
+            .par_iter()
+            .map(|family| {
+                (family.members)(&self.project.data(), true)
+                    .map_err(|source| RunError::Family { family: family.name, source })
+            })
+            .collect()
     }
 
     fn with_costs(&self, judged: Judged) -> Result<Studied, RunError> {

@@ -62,7 +62,8 @@ pub fn standings<'a>(study: &'a Study, costs: &'a Costs) -> Vec<Standing<'a>> {
     standings
 }
 
-fn errors(study: &Study, fit: &str) -> Vec<(String, f64)> {
+/// The errors in f32 of a subject of `study`, by region; none if it was not judged.
+pub fn errors(study: &Study, fit: &str) -> Vec<(String, f64)> {
     if let Some(study) = study.candidates.iter().find(|study| study.name == fit) {
         let region = |(name, accuracy): &(String, Accuracy)| {
             let kind = match accuracy.yardstick {

@@ -1,0 +1,90 @@
+//! What is counted in machine code.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// What a compiler says of one kernel.
+#[derive(Debug)]
+pub(super) struct Compiled {
+    /// The driver's own statistics, by name.
+    pub(super) statistics: BTreeMap<String, f64>,
+    /// The machine code.
+    pub(super) assembly: String,
+}
+
+/// Counts in one kernel.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Statistics {
+    pub(super) instructions: f64,
+    pub(super) quarter_rate: f64,
+    pub(super) inverse_throughput: f64,
+    pub(super) latency: Option<f64>,
+    pub(super) registers: f64,
+}
+
+/// What one evaluation of a form costs on a target: counts in machine code, net of the empty kernel.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct CountedCost {
+    /// Inverse throughput, issue cycles of one wave: issue slots weighted by the rate of their unit. The
+    /// number that is called the cost.
+    pub cost: f64,
+    /// Latency of one wave alone, cycles, where the compiler estimates it.
+    pub latency: Option<f64>,
+    /// Instructions.
+    pub instructions: f64,
+    /// Instructions that issue at a quarter of the rate of an addition: sin, cos, exp2, log2, reciprocals,
+    /// roots and 32-bit integer products.
+    pub quarter_rate: f64,
+    /// Vector registers of the whole kernel.
+    pub registers: f64,
+}
+
+impl CountedCost {
+    /// The cost of one of `evaluations` in `full` that are not in `empty`.
+    pub(super) fn net(full: &Statistics, empty: &Statistics, evaluations: u32) -> Self {
+        let per = |of: fn(&Statistics) -> f64| (of(full) - of(empty)) / f64::from(evaluations);
+        let latency = full.latency.zip(empty.latency);
+        Self {
+            cost: per(|of| of.inverse_throughput),
+            latency: latency.map(|(full, empty)| (full - empty) / f64::from(evaluations)),
+            instructions: per(|of| of.instructions),
+            quarter_rate: per(|of| of.quarter_rate),
+            registers: full.registers,
+        }
+    }
+}
+
+/// Operations of AMD's vector unit at a quarter of the rate, by the beginning of their names.
+const QUARTER_RATE: [&str; 11] = [
+    "v_sin_f32",
+    "v_cos_f32",
+    "v_exp_f32",
+    "v_log_f32",
+    "v_rcp_",
+    "v_rsq_",
+    "v_sqrt_f32",
+    "v_mul_lo_u32",
+    "v_mul_hi_",
+    "v_mad_u64_u32",
+    "v_mad_i64_i32",
+];
+
+impl Compiled {
+    /// The counts of RADV.
+    pub(super) fn of_radv(&self) -> Result<Statistics, String> {
+        let figure = |name: &str| {
+            let value = self.statistics.get(name).copied();
+            value.ok_or_else(|| format!("the driver does not tell the statistic `{name}`"))
+        };
+        let operations = self.assembly.lines().filter_map(|line| line.split_whitespace().next());
+        let slow = |operation: &&str| QUARTER_RATE.iter().any(|slow| operation.starts_with(slow));
+        Ok(Statistics {
+            instructions: figure("Instructions")?,
+            quarter_rate: operations.filter(slow).count() as f64,
+            inverse_throughput: figure("Inverse Throughput")?,
+            latency: Some(figure("Latency")?),
+            registers: figure("VGPRs")?,
+        })
+    }
+}
