@@ -1,6 +1,6 @@
 //! What is counted in machine code.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +40,16 @@ pub struct CountedCost {
     pub registers: f64,
 }
 
+/// What two additions of a wave cost: below it a form costs no more than the sum that the empty kernel makes
+/// in its place, and nothing can be told relative to it.
+const LEAST_CYCLES: f64 = 4.0;
+
 impl CountedCost {
+    /// The cost over that of `baseline`, unless the latter is as good as none.
+    pub fn over(&self, baseline: &Self) -> Option<f64> {
+        (baseline.cost >= LEAST_CYCLES).then(|| self.cost / baseline.cost)
+    }
+
     /// The cost of one of `evaluations` in `full` that are not in `empty`.
     pub(super) fn net(full: &Statistics, empty: &Statistics, evaluations: u32) -> Self {
         let per = |of: fn(&Statistics) -> f64| (of(full) - of(empty)) / f64::from(evaluations);
@@ -70,13 +79,39 @@ const QUARTER_RATE: [&str; 11] = [
     "v_mad_i64_i32",
 ];
 
+/// Why a kernel with a loop has no cost.
+const LOOP: &str = "its machine code has a loop, whose turns a compiler only guesses";
+
 impl Compiled {
+    /// Whether a branch goes back to a label that stands before it.
+    fn has_loop(&self) -> bool {
+        let mut labels = HashSet::new();
+        self.assembly.lines().any(|line| {
+            let mut words = line.split_whitespace();
+            match (words.next(), words.next()) {
+                (Some(first), _) if first.ends_with(':') => {
+                    labels.insert(first.trim_end_matches(':'));
+                    false
+                }
+                (Some(operation), Some(to)) => {
+                    let branch =
+                        operation.starts_with("s_branch") || operation.starts_with("s_cbranch");
+                    branch && labels.contains(to)
+                }
+                _ => false,
+            }
+        })
+    }
+
     /// The counts of RADV.
     pub(super) fn of_radv(&self) -> Result<Statistics, String> {
         let figure = |name: &str| {
             let value = self.statistics.get(name).copied();
             value.ok_or_else(|| format!("the driver does not tell the statistic `{name}`"))
         };
+        if self.has_loop() {
+            return Err(LOOP.to_owned());
+        }
         let operations = self.assembly.lines().filter_map(|line| line.split_whitespace().next());
         let slow = |operation: &&str| QUARTER_RATE.iter().any(|slow| operation.starts_with(slow));
         Ok(Statistics {

@@ -72,12 +72,12 @@ impl Run {
         let on = |subject: &Subject, baseline: Option<&Subject>| {
             let (own, base) = (place(&subject.name), baseline.and_then(|base| place(&base.name)));
             let on_target = |(target, costs): (&GpuTarget, &Vec<Measured<CountedCost>>)| {
-                let cost = |at: Option<usize>| costs.get(at?)?.value().map(|counted| counted.cost);
+                let cost = |at: Option<usize>| costs.get(at?)?.value();
                 let missing = || Measured::NotMeasured("it has no constants yet".to_owned());
                 OnTarget {
                     target: *target,
                     counted: own.map_or_else(missing, |at| costs[at].clone()),
-                    ratio: cost(own).zip(cost(base)).map(|(own, base)| own / base),
+                    ratio: cost(own).zip(cost(base)).and_then(|(own, base)| own.over(base)),
                 }
             };
             targets.iter().zip(&costs).map(on_target).collect()
@@ -151,7 +151,9 @@ impl Run {
             }
             let members = self.members(effect)?;
             let groups = timed(effect, &together, &members, &self.project, &self.atlas)?;
-            found.extend(costs(effect.name, &groups, &[], &self.device, &self.timing)?.forms);
+            found.extend(
+                costs(effect.name, &groups, &[], &self.device, &self.timing, &self.counter)?.forms,
+            );
         }
         Ok(found)
     }

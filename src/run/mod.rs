@@ -22,7 +22,7 @@ use crate::numeric::measured::Measured;
 use crate::project::{Project, Subject};
 use crate::render::Scenes;
 use crate::validate::ValidateError;
-use crate::validate::cost::{Costs, Timed, TimedReference, costs};
+use crate::validate::cost::{Costs, Timed, TimedReference, costs, counted};
 use crate::validate::regions::Atlas;
 use crate::validate::study::{Study, study};
 use crate::validate::timed::{timed, timed_references};
@@ -193,8 +193,12 @@ impl Run {
                 self.judge(effect, own.collect(), &candidates)
             })
             .collect();
+        // Every effect together: one process counts on a target.
+        let judged = judged.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let timed = judged.iter().flat_map(|judged| &judged.forms).flatten();
+        counted(&self.counter, &timed.map(|timed| &timed.candidate).collect::<Vec<_>>());
         // Nothing else runs beside what is timed.
-        judged.into_iter().map(|judged| self.with_costs(judged?)).collect()
+        judged.into_iter().map(|judged| self.with_costs(judged)).collect()
     }
 
     fn judge(
@@ -229,7 +233,8 @@ impl Run {
 
     fn with_costs(&self, judged: Judged) -> Result<Studied, RunError> {
         let Judged { effect, subjects, study, forms, references, members } = judged;
-        let costs = costs(effect.name, &forms, &references, &self.device, &self.timing)?;
+        let Self { device, timing, counter, .. } = self;
+        let costs = costs(effect.name, &forms, &references, device, timing, counter)?;
         Ok(Studied { effect, subjects, study, costs, members })
     }
 }
