@@ -12,6 +12,8 @@ use naga::back::{PipelineConstants, pipeline_constants::process_overrides, spv};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use serde::{Deserialize, Serialize};
 
+use super::cuda;
+use super::target::Compiler;
 use crate::form::{Form, ScalarType, guarded};
 use crate::gpu::{constant_key, unused_prefix};
 
@@ -20,11 +22,16 @@ pub(super) const EVALUATIONS: u32 = 8;
 
 /// A kernel as its compiler takes it.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub(super) struct KernelCode {
-    /// SPIR-V.
-    pub(super) words: Vec<u32>,
-    /// Buffers that it reads beside the one that it writes.
-    pub(super) tables: u32,
+#[serde(rename_all = "snake_case")]
+pub(super) enum KernelCode {
+    /// SPIR-V, for RADV.
+    Spirv {
+        words: Vec<u32>,
+        /// Buffers that it reads beside the one that it writes.
+        tables: u32,
+    },
+    /// C++, for NVRTC.
+    Cuda(String),
 }
 
 /// The kernels of a form with constants: with it, and without.
@@ -35,14 +42,18 @@ pub(super) struct KernelPair {
 
 impl KernelPair {
     /// `constants` in the order of [`Form::parameters`]; they are folded in as they ship.
-    pub(super) fn new(form: &Form, constants: &[f32]) -> Result<Self, String> {
+    pub(super) fn new(form: &Form, constants: &[f32], compiler: Compiler) -> Result<Self, String> {
+        if compiler == Compiler::Nvrtc {
+            let full = KernelCode::Cuda(cuda::text(form, Some(constants))?);
+            return Ok(Self { full, empty: KernelCode::Cuda(cuda::text(form, None)?) });
+        }
         let prefix = unused_prefix(form.source());
         let evaluated = text(&prefix, form, true);
         let source = format!("{}\n{evaluated}", form.device_source());
         let tables = form.tables().len() as u32;
-        let full = KernelCode { words: spirv(form, &source, &prefix, constants)?, tables };
+        let full = KernelCode::Spirv { words: spirv(form, &source, &prefix, constants)?, tables };
         let empty = text(&prefix, form, false);
-        let empty = KernelCode { words: spirv(form, &empty, &prefix, &[])?, tables: 0 };
+        let empty = KernelCode::Spirv { words: spirv(form, &empty, &prefix, &[])?, tables: 0 };
         Ok(Self { full, empty })
     }
 }

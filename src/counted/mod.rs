@@ -4,17 +4,24 @@
 //! | target | compiler | where it comes from |
 //! |---|---|---|
 //! | `rdna2`, `rdna3`, `gcn4` | Mesa's RADV on its null device | `mesa-vulkan-drivers` of Debian and Ubuntu |
+//! | `sm_75`, `sm_90` | NVIDIA's NVRTC with fast math, and nvdisasm | the wheels `nvidia-cuda-nvrtc-cu12` and `nvidia-cuda-nvdisasm` |
+//!
+//! `STRIAE_NVRTC` names the library of NVRTC and `STRIAE_NVDISASM` the program nvdisasm where they are not
+//! among the packages of `python3`.
 //!
 //! A kernel makes its inputs in registers and evaluates the form eight times, so that memory does not rule;
 //! costs are net of the same kernel without the form, and the same on every run. The cost is the inverse
 //! throughput: a shader of a full screen has waves enough to hide latency, and then what it costs is the
 //! issue slots that it takes, a sine four of them. Latency stands beside it for those that have not. Both
-//! are estimates over the text: each branch counts, and a loop as often as the compiler guesses.
+//! are static: each branch counts, and a loop that the compiler keeps has no cost. For NVIDIA, of which no
+//! compiler tells the throughput, it is instructions, those of the unit for transcendentals counted four
+//! times (conversions as any other), and there is no latency.
 //!
 //! Compilers run in a child process, one per target for all kernels: the program of striae started again,
 //! since what picks the driver must be in the environment before it loads, and since it may crash.
 
 mod child;
+mod cuda;
 #[allow(unsafe_code)] // Vulkan and NVRTC are C: the crate's only unsafe module, and a small one.
 mod foreign;
 mod kernel;
@@ -23,7 +30,7 @@ mod target;
 
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 pub use child::{COUNT_VERB, count_kernels};
 pub use statistics::CountedCost;
@@ -35,6 +42,7 @@ use crate::form::Form;
 use crate::numeric::measured::Measured;
 use kernel::{EVALUATIONS, KernelCode, KernelPair};
 use statistics::Statistics;
+use target::Compiler;
 
 /// Counts kernels and remembers them: each once, whoever asks.
 #[derive(Debug)]
@@ -81,11 +89,19 @@ impl Counter {
         targets: &[GpuTarget],
         forms: &[(&Form, &[f32])],
     ) -> Vec<Vec<Measured<CountedCost>>> {
-        let pairs: Vec<Result<KernelPair, String>> =
-            forms.par_iter().map(|(form, constants)| KernelPair::new(form, constants)).collect();
+        let pairs = |compiler: Compiler| -> Vec<Result<KernelPair, String>> {
+            let pair =
+                |(form, constants): &(&Form, &[f32])| KernelPair::new(form, constants, compiler);
+            forms.par_iter().map(pair).collect()
+        };
+        let (radv, nvrtc) = (OnceLock::new(), OnceLock::new());
         std::thread::scope(|scope| {
-            let count = |target| {
-                let pairs = &pairs;
+            let count = |target: GpuTarget| {
+                let made = match target.compiler() {
+                    Compiler::Radv(_) => &radv,
+                    Compiler::Nvrtc => &nvrtc,
+                };
+                let pairs = made.get_or_init(|| pairs(target.compiler()));
                 scope.spawn(move || self.costs_on(target, pairs))
             };
             let counting: Vec<_> = targets.iter().map(|target| count(*target)).collect();

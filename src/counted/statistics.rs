@@ -83,6 +83,11 @@ const QUARTER_RATE: [&str; 11] = [
 const LOOP: &str = "its machine code has a loop, whose turns a compiler only guesses";
 
 impl Compiled {
+    /// Machine code alone.
+    pub(super) fn new(assembly: String) -> Self {
+        Self { statistics: BTreeMap::new(), assembly }
+    }
+
     /// Whether a branch goes back to a label that stands before it.
     fn has_loop(&self) -> bool {
         let mut labels = HashSet::new();
@@ -100,6 +105,56 @@ impl Compiled {
                 }
                 _ => false,
             }
+        })
+    }
+
+    /// The counts in a disassembly of nvdisasm.
+    pub(super) fn of_nvdisasm(&self) -> Result<Statistics, String> {
+        let (mut instructions, mut slow, mut registers) = (0_u32, 0_u32, 0_u32);
+        let mut labels = HashSet::new();
+        let mut last_label = "";
+        for line in self.assembly.lines() {
+            let line = line.trim();
+            if let Some(label) = line.strip_suffix(':') {
+                labels.insert(label);
+                last_label = label;
+                continue;
+            }
+            let Some((_, code)) = line.strip_prefix("/*").and_then(|rest| rest.split_once("*/"))
+            else {
+                continue;
+            };
+            let mut words = code.split_whitespace().skip_while(|word| word.starts_with('@'));
+            let Some(operation) = words.next() else { continue };
+            let operands = words.collect::<Vec<_>>().join(" ");
+            if operation == "NOP" {
+                continue;
+            }
+            if operation.starts_with("BRA") {
+                let to = operands.split("`(").nth(1).and_then(|rest| rest.split(')').next());
+                match to {
+                    // The end of every kernel: a trap that branches to itself.
+                    Some(to) if to == last_label && operands.starts_with('`') => continue,
+                    Some(to) if labels.contains(to) => return Err(LOOP.to_owned()),
+                    _ => {}
+                }
+            }
+            instructions += 1;
+            slow += u32::from(operation.starts_with("MUFU"));
+            let numbers = operands.split(|c: char| !c.is_ascii_alphanumeric());
+            let register = |word: &str| word.strip_prefix('R')?.parse::<u32>().ok();
+            registers =
+                registers.max(numbers.filter_map(register).max().map_or(0, |last| last + 1));
+        }
+        if instructions == 0 {
+            return Err("nvdisasm shows no instruction".to_owned());
+        }
+        Ok(Statistics {
+            instructions: f64::from(instructions),
+            quarter_rate: f64::from(slow),
+            inverse_throughput: f64::from(instructions + 3 * slow),
+            latency: None,
+            registers: f64::from(registers),
         })
     }
 

@@ -14,11 +14,17 @@ pub enum GpuTarget {
     Rdna3,
     /// AMD GCN4 (Polaris 10; PlayStation 4 and Xbox One are near).
     Gcn4,
+    /// NVIDIA Turing.
+    #[serde(rename = "sm_75")]
+    Sm75,
+    /// NVIDIA Hopper.
+    #[serde(rename = "sm_90")]
+    Sm90,
 }
 
 impl GpuTarget {
     /// All of them, the one that is quoted first before the others.
-    pub const ALL: [Self; 3] = [Self::Rdna2, Self::Rdna3, Self::Gcn4];
+    pub const ALL: [Self; 5] = [Self::Rdna2, Self::Rdna3, Self::Gcn4, Self::Sm75, Self::Sm90];
 
     /// Name on the command line, in gates and in files.
     pub fn name(self) -> &'static str {
@@ -26,6 +32,8 @@ impl GpuTarget {
             Self::Rdna2 => "rdna2",
             Self::Rdna3 => "rdna3",
             Self::Gcn4 => "gcn4",
+            Self::Sm75 => "sm_75",
+            Self::Sm90 => "sm_90",
         }
     }
 
@@ -40,6 +48,7 @@ impl GpuTarget {
             Self::Rdna2 => Compiler::Radv("navi21"),
             Self::Rdna3 => Compiler::Radv("gfx1100"),
             Self::Gcn4 => Compiler::Radv("polaris10"),
+            Self::Sm75 | Self::Sm90 => Compiler::Nvrtc,
         }
     }
 }
@@ -49,6 +58,8 @@ impl GpuTarget {
 pub(super) enum Compiler {
     /// Mesa's RADV on a null device of this family.
     Radv(&'static str),
+    /// NVIDIA's NVRTC, for the architecture of the target's name.
+    Nvrtc,
 }
 
 impl fmt::Display for GpuTarget {
