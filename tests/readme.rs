@@ -105,8 +105,9 @@ fn candidates_table() -> String {
             let row = |of: &'_ Records| -> BTreeMap<String, String> {
                 of.iter().find(|row| row["candidate"] == *name).expect("a cost").clone()
             };
-            let ratio = |row: &BTreeMap<String, String>, column: &str| {
-                number(row[column].parse().expect("a number"), 2)
+            let ratio = |row: &BTreeMap<String, String>, column: &str| match row[column].as_str() {
+                "" => "—".to_owned(),
+                ratio => number(ratio.parse().expect("a number"), 2),
             };
             let counted: Vec<String> = counted.iter().map(|of| ratio(&row(of), "ratio")).collect();
             let time = row(&timed);

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::kernel::EVALUATIONS;
+use super::kernel::{EVALUATIONS, multiplier, step};
 use crate::form::emit::{Emitted, Language, TableStyle, emit_with_tables};
 use crate::form::{Form, ScalarType};
 
@@ -34,8 +34,7 @@ pub(super) fn text(form: &Form, constants: Option<&[f32]>) -> Result<String, Str
     };
     let (mut starts, mut steps, mut inputs) = (String::new(), String::new(), String::new());
     for at in 0..types.len() {
-        let multiplier = 2_654_435_761_u32.wrapping_mul(2 * at as u32 + 1);
-        let (growth, shift) = (1.0 + (at as f64 + 1.0) / 1024.0, 0.37 / (at as f64 + 1.0));
+        let (multiplier, (growth, shift)) = (multiplier(at), step(at));
         // Writing to a String cannot fail.
         let _ = writeln!(starts, "float v{at} = float((id * {multiplier}u) >> 9) * 1.1920929e-7f;");
         let _ = writeln!(steps, "v{at} = fmaf(v{at}, {growth:?}f, {shift:?}f);");
@@ -86,14 +85,18 @@ fn arguments(form: &Form) -> String {
 /// The name of the last function of a text, which is the form: callees stand before it.
 fn last_function(metal: &str) -> Result<&str, String> {
     let opens = |line: &&str| !line.starts_with(' ') && line.ends_with('(');
-    let line = metal.lines().filter(opens).next_back();
+    let line = metal.lines().rfind(opens);
     let name = line.and_then(|line| line.trim_end_matches('(').split_whitespace().next_back());
     name.ok_or_else(|| "no function was written".to_owned())
 }
 
-/// A line of Metal in CUDA: there a number without a suffix is a double, and a swizzle is a function.
+/// A line of Metal in CUDA: there a number without a suffix is a double, and a swizzle is a function. Loops are
+/// asked to be unrolled.
 fn as_cuda(line: &str) -> String {
     let mut text = String::with_capacity(line.len() + 8);
+    if line.trim_start().starts_with("while(true)") {
+        text.push_str("#pragma unroll 64\n");
+    }
     let mut rest = line;
     while let Some(first) = rest.chars().next() {
         let in_word = |c: char| c.is_ascii_alphanumeric() || c == '_';

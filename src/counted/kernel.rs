@@ -64,13 +64,12 @@ fn text(p: &str, form: &Form, evaluated: bool) -> String {
     let (mut starts, mut steps, mut sum_of_inputs) = (String::new(), String::new(), String::new());
     for (at, scalar) in types.iter().enumerate() {
         let name = format!("{p}input_{at}_");
-        // Odd multipliers without a simple ratio (Weyl's sequence of the golden section), one per input.
-        let multiplier = 2_654_435_761_u32.wrapping_mul(2 * at as u32 + 1);
+        let multiplier = multiplier(at);
         let hash = format!("(({p}id.x * {multiplier}u) >> 9u)");
         // Writing to a String cannot fail.
         let _ = match scalar {
             ScalarType::F32 => {
-                let (growth, shift) = (1.0 + (at as f64 + 1.0) / 1024.0, 0.37 / (at as f64 + 1.0));
+                let (growth, shift) = step(at);
                 let _ = writeln!(starts, "  var {name} = f32({hash}) * 1.1920929e-7;");
                 writeln!(steps, "    {name} = fma({name}, {growth:?}, {shift:?});")
             }
@@ -128,6 +127,37 @@ fn text(p: &str, form: &Form, evaluated: bool) -> String {
     )
 }
 
+/// What the invocation is multiplied with in the hash from which input `at` starts: odd, without a simple ratio
+/// between two (Weyl's sequence of the golden section).
+pub(super) fn multiplier(at: usize) -> u32 {
+    2_654_435_761_u32.wrapping_mul(2 * at as u32 + 1)
+}
+
+/// Factor and summand of the step that input `at` takes per evaluation, if it is an f32.
+pub(super) fn step(at: usize) -> (f64, f64) {
+    let place = at as f64 + 1.0;
+    (1.0 + place / 1024.0, 0.37 / place)
+}
+
+/// SPIR-V whose loops are asked to be unrolled: in a loop that stays nobody counts the turns.
+fn unrolled(mut words: Vec<u32>) -> Vec<u32> {
+    /// Words before the first instruction.
+    const HEADER: usize = 5;
+    /// `OpLoopMerge`, whose third operand is the control, and the control that asks.
+    const LOOP_MERGE: u32 = 246;
+    const UNROLL: u32 = 1;
+    let mut at = HEADER;
+    while let Some(&first) = words.get(at) {
+        if first & 0xffff == LOOP_MERGE
+            && let Some(control) = words.get_mut(at + 3)
+        {
+            *control |= UNROLL;
+        }
+        at += (first >> 16).max(1) as usize;
+    }
+    words
+}
+
 /// The bits of an integer stand for a number: nothing is converted.
 fn as_f32(name: &str, scalar: ScalarType) -> String {
     match scalar {
@@ -156,7 +186,7 @@ fn spirv(form: &Form, source: &str, prefix: &str, constants: &[f32]) -> Result<V
         let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module)?;
         let options = spv::Options { force_loop_bounding: false, ..spv::Options::default() };
         let pipeline = spv::PipelineOptions { shader_stage: stage, entry_point: "main".into() };
-        Ok(spv::write_vec(&module, &info, &options, Some(&pipeline))?)
+        Ok(unrolled(spv::write_vec(&module, &info, &options, Some(&pipeline))?))
     };
     let written = guarded(form.origin(), || Ok(write().map_err(|error| error.to_string())));
     written.map_err(|error| error.to_string())?

@@ -13,7 +13,7 @@
 //! costs are net of the same kernel without the form, and the same on every run. The cost is the inverse
 //! throughput: a shader of a full screen has waves enough to hide latency, and then what it costs is the
 //! issue slots that it takes, a sine four of them. Latency stands beside it for those that have not. Both
-//! are static: each branch counts, and a loop that the compiler keeps has no cost. For NVIDIA, of which no
+//! are static: each branch counts. Loops are asked to be unrolled; one that the compiler keeps has no cost. For NVIDIA, of which no
 //! compiler tells the throughput, it is instructions, those of the unit for transcendentals counted four
 //! times (conversions as any other), and there is no latency.
 //!
