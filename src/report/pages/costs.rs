@@ -34,17 +34,9 @@ pub fn cost_section(title: &str, effect: &Effect, study: &Study, costs: &Costs) 
          refer to {}.",
         baselines(costs)
     ));
-    let uncounted = costs.forms.iter().find_map(|cost| match cost.counted.get(&RANKED_ON) {
-        Some(Measured::NotMeasured(reason)) => Some((bare(&cost.name), reason)),
-        _ => None,
-    });
-    let section = match uncounted {
-        Some((name, reason)) => {
-            let text = format!("Not every cost was counted, as that of {name}: {reason}");
-            section.notice(NoticeLevel::NotMeasured, text)
-        }
-        None => section,
-    };
+    let section = uncounted(costs)
+        .into_iter()
+        .fold(section, |section, text| section.notice(NoticeLevel::NotMeasured, text));
     let section = match &costs.adapter {
         Measured::Value(adapter) => section.paragraph(format!(
             "Times: medians of interleaved rounds in one run on {adapter}, net of an empty kernel."
@@ -60,6 +52,29 @@ pub fn cost_section(title: &str, effect: &Effect, study: &Study, costs: &Costs) 
         .blocks((!least.is_empty()).then(|| cheapest_table(&least)))
         .blocks((!verdicts.is_empty()).then(|| goal_table(&verdicts)))
         .block(references(costs))
+}
+
+/// Why forms have no counted cost, once per reason.
+fn uncounted(costs: &Costs) -> Vec<String> {
+    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+    for cost in &costs.forms {
+        for (target, counted) in &cost.counted {
+            let Measured::NotMeasured(reason) = counted else { continue };
+            let at = reasons.iter().position(|(known, _)| known == reason);
+            let at = at.unwrap_or_else(|| {
+                reasons.push((reason, Vec::new()));
+                reasons.len() - 1
+            });
+            let target = target.to_string();
+            if !reasons[at].1.contains(&target) {
+                reasons[at].1.push(target);
+            }
+        }
+    }
+    let line = |(reason, targets): &(&str, Vec<String>)| {
+        format!("Not counted on {}: {reason}", targets.join(", "))
+    };
+    reasons.iter().map(line).collect()
 }
 
 /// What is as cheap as the baseline and better, and what is better and cheapest.
@@ -173,7 +188,8 @@ fn counted_table(standings: &[Standing<'_>], costs: &Costs) -> PrintedTable {
         |target| PrintedColumn::number(format!("ratio, {target}"), "1"),
         |one, target| match costs.ratio_on(*target, one.cost) {
             Measured::Value(ratio) => Cell::number(ratio, 3),
-            Measured::NotMeasured(reason) => Cell::missing(reason),
+            Measured::NotMeasured(_) if one.cost.on(*target).is_some() => Cell::missing("none"),
+            Measured::NotMeasured(_) => Cell::missing("not counted"),
         },
     )
     .number("cost", "cycles of a wave", counted(|of| Some(of.cost)))
