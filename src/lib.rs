@@ -23,6 +23,7 @@ pub mod document;
 pub mod measured;
 pub mod form;
 pub mod gpu;
+pub mod counted;
 pub mod factor;
 pub mod effect;
 pub mod effects;

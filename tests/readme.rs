@@ -26,7 +26,10 @@ struct Tables {
 
 #[derive(Deserialize)]
 struct Candidates {
-    costs: String,
+    /// Targets whose costs are counted.
+    counted: Vec<String>,
+    /// The adapter whose times come last.
+    timed: String,
     group: Vec<Group>,
 }
 
@@ -39,8 +42,10 @@ struct Group {
     rows: Vec<(String, String)>,
 }
 
+type Records = Vec<BTreeMap<String, String>>;
+
 /// Rows of a file of tab-separated values, by the names of its first line that is no comment.
-fn records(path: &Path) -> Vec<BTreeMap<String, String>> {
+fn records(path: &Path) -> Records {
     let text = read(path);
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
     let header: Vec<&str> = lines.next().expect("a header").split('\t').collect();
@@ -65,15 +70,23 @@ fn candidates_table() -> String {
         toml::from_str(&read(&root().join("tests/readme/tables.toml"))).expect("tables.toml");
     let tables = tables.candidates;
     let errors = records(&root().join("reports/accuracy.tsv"));
-    let costs = records(&root().join(format!("reports/costs/{}.tsv", tables.costs)));
+    let costs = |name: &String| records(&root().join(format!("reports/costs/{name}.tsv")));
+    let counted: Vec<Records> = tables.counted.iter().map(costs).collect();
+    let timed = costs(&tables.timed);
     let project = Project::at(root(), Registry::builtin());
     let subjects = project.subjects().expect("the project's results");
+    let names = tables.counted.join(" | ");
+    let rule = "---|".repeat(tables.counted.len());
     let mut lines = vec![
-        "| approximation | constants | max error, f32 | cost on the device |".to_owned(),
-        "|---|---|---|---|".to_owned(),
+        format!(
+            "| approximation | constants | max error, f32 | {names} | time on {} |",
+            tables.timed
+        ),
+        format!("|---|---|---|{rule}---|"),
     ];
     for group in &tables.group {
-        lines.push(format!("| **{}** | | | × `{}` |", group.title, group.baseline));
+        let blank = "| ".repeat(tables.counted.len());
+        lines.push(format!("| **{}** | | | × `{}` {blank}|", group.title, group.baseline));
         for (name, note) in &group.rows {
             let error = |regions: &Vec<String>| {
                 let of = errors.iter().filter(|row| {
@@ -89,12 +102,22 @@ fn candidates_table() -> String {
             let subject = subjects.iter().find(|subject| subject.name == *name);
             let candidate = subject.and_then(|subject| subject.candidates.first());
             let constants = candidate.expect("a candidate").constants.len();
-            let cost = costs.iter().find(|row| row["candidate"] == *name).expect("a cost");
-            let ratio: f64 = cost["ratio"].parse().expect("a number");
+            let row = |of: &'_ Records| -> BTreeMap<String, String> {
+                of.iter().find(|row| row["candidate"] == *name).expect("a cost").clone()
+            };
+            let ratio = |row: &BTreeMap<String, String>, column: &str| match row[column].as_str() {
+                "" => "—".to_owned(),
+                ratio => number(ratio.parse().expect("a number"), 2),
+            };
+            let counted: Vec<String> = counted.iter().map(|of| ratio(&row(of), "ratio")).collect();
+            let time = row(&timed);
+            let [median, p25, p75] =
+                ["ratio", "ratio_p25", "ratio_p75"].map(|column| ratio(&time, column));
             let note = if note.is_empty() { String::new() } else { format!(" ({note})") };
             let errors: Vec<String> = group.regions.iter().map(error).collect();
-            let (errors, ratio) = (errors.join(" · "), number(ratio, 2));
-            lines.push(format!("| `{name}`{note} | {constants} | {errors} | {ratio} |"));
+            let (errors, counted) = (errors.join(" · "), counted.join(" | "));
+            let time = format!("{median} ({p25}–{p75})");
+            lines.push(format!("| `{name}`{note} | {constants} | {errors} | {counted} | {time} |"));
         }
     }
     lines.join("\n")

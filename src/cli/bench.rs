@@ -15,21 +15,33 @@ use crate::validate::standing::{Cheapest, GoalVerdict, Standing, cheapest, goals
 use crate::validate::study::CandidateStudy;
 
 const MORE: &str = "\
-Forms are timed in one run, interleaved, on f64 and f32 lanes (one core) and, where there is an
+With --target the machine code of a GPU is counted, which need not be there: rdna2, rdna3 and gcn4
+(AMD, by Mesa's RADV), the same on every run. `device` times on the adapter that is there; `all` is a
+table of every target, relative to the published baseline. The cost is the inverse throughput: issue
+cycles of a wave per evaluation, net of a kernel without the form, an instruction like sin or a root
+at a quarter of the rate counted four times. It is what a full screen pays, whose waves hide latency;
+latency is given beside it. With --json a list of {name, error, cost, …}.
+
+Without --target forms are timed in one run, interleaved, on f64 and f32 lanes (one core) and, where there is an
 adapter, on the device net of an empty kernel. Quote the ratios: the nanoseconds are this machine's.
 A form on the frontier is beaten by no other in both error and cost.
 
-Example:
-  striae bench sine_integral";
+Examples:
+  striae bench sine_integral
+  striae bench sine_integral/auxiliary_lean --target rdna2 --json
+  striae bench 'area_light/band_*' --target all";
 
 /// Cost of forms and references, against their error
 #[derive(Debug, Args)]
 #[command(after_help = MORE)]
 pub(super) struct Arguments {
-    /// Effects [default: all]
+    /// Effects [default: all]; with --target also candidates, result files and patterns with `*`
     #[arg(value_name = "NAME")]
-    effects: Vec<String>,
-    /// Record the costs on this device in reports/costs/, in a file named after the adapter
+    names: Vec<String>,
+    /// What the costs are of: rdna2, rdna3, gcn4, device or all
+    #[arg(long, value_name = "TARGET")]
+    target: Option<String>,
+    /// Record the costs in reports/costs/, in a file named after the target or the adapter
     #[arg(long)]
     record: bool,
 }
@@ -72,21 +84,23 @@ fn draws_of(of: &CandidateStudy) -> impl Iterator<Item = DrawsIn<'_>> {
     of.draws.iter().map(|(region, draws)| DrawsIn { fit: &of.name, region, draws })
 }
 
-/// Times, and prints the frontier.
+/// Times, and prints the frontier; counts, and prints the costs.
 pub(super) fn run(arguments: &Arguments, context: &Context) -> anyhow::Result<Ending> {
-    let effects = context.effects(&arguments.effects)?;
+    if arguments.record && !arguments.names.is_empty() {
+        bail!("--record is for every effect together: name none");
+    }
+    if let Some(target) = &arguments.target {
+        return super::bench_targets::run(target, &arguments.names, arguments.record, context);
+    }
+    let effects = context.effects(&arguments.names)?;
     let mut run = context.run()?;
     run.timing = TimingOptions::default();
     let studied = run.studies(&effects, &|_| ())?;
     if arguments.record {
-        if !arguments.effects.is_empty() {
-            bail!("--record is for every effect together: name none");
-        }
         let Some(device) = run.device.value() else {
-            bail!("--record needs a device, and there is none");
+            bail!("--record needs a device, and there is none; or --target");
         };
-        let folder = run.project.reports().join("costs");
-        let path = write_costs(&folder, device.description(), &studied)?;
+        let path = write_costs(&run.project.costs(), device.description(), &studied)?;
         context.output.note(&format!("costs: {}", run.project.shown(&path)));
     }
     let benches: Vec<Bench<'_>> = studied.iter().map(Bench::of).collect();

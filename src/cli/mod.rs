@@ -3,6 +3,7 @@
 mod assignment;
 mod report;
 mod bench;
+mod bench_targets;
 mod all;
 mod check;
 mod compare;
@@ -30,6 +31,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::counted::{COUNT_VERB, count_kernels};
 pub use exit::Ending;
 
 const EXIT_CODES: &str = "\
@@ -94,6 +96,9 @@ enum Verb {
     Import(import::Arguments),
     Doctor(doctor::Arguments),
     Completions(completions::Arguments),
+    /// Counts kernels for a parent; see `striae::counted`.
+    #[command(hide = true, name = COUNT_VERB)]
+    CountKernels,
 }
 
 /// Reads the command line, runs its verb and returns the process's exit code.
@@ -124,5 +129,9 @@ fn run(line: CommandLine) -> anyhow::Result<Ending> {
         Verb::Import(arguments) => import::run(&arguments, &context),
         Verb::Doctor(arguments) => doctor::run(&arguments, &context),
         Verb::Completions(arguments) => completions::run(&arguments),
+        Verb::CountKernels => {
+            count_kernels(std::io::stdin(), std::io::stdout())?;
+            Ok(Ending::Done)
+        }
     }
 }

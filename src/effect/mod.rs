@@ -308,7 +308,7 @@ pub struct Goal {
     pub region: &'static str,
     /// Largest error.
     pub error: f64,
-    /// Largest cost on the device relative to the baseline of its reference.
+    /// Largest cost, as counted, relative to the baseline of its reference.
     pub cost: f64,
     /// Why this error and this cost.
     pub why: &'static str,

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::Domain;
+use crate::counted::GpuTarget;
 
 /// One budget, as written in `fits/gates.toml`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,6 +34,13 @@ pub struct Gate {
     /// metric `drift` and for it only.
     #[serde(skip)]
     pub shipped: Option<PathBuf>,
+    /// The candidate, as `subject` names one, to whose cost that of the subject is relative; for the
+    /// metric `cost` and for it only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative_to: Option<String>,
+    /// The target on which costs are counted; for the metric `cost` and for it only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<GpuTarget>,
     /// Why the limit is what it is.
     pub why: String,
     /// Line of its `subject` in the file, from 1.
@@ -66,6 +74,9 @@ pub enum Metric {
     /// Largest distance, in units in the last place of f32, between a constant in the shipped file
     /// and the fitted one.
     Drift,
+    /// Cost of an evaluation over that of the candidate `relative_to`, counted in the machine code of
+    /// `target`; not measured where its compiler is not installed.
+    Cost,
     /// Mean of the draws less that of the distribution, in its standard errors: the largest magnitude at
     /// any point. That of fair draws is below 4 at most and above it at 1 point of 16 000.
     MeanZ,
@@ -79,7 +90,7 @@ pub enum Metric {
 
 impl Metric {
     /// Every metric with its name in the file, in the order of the documentation.
-    pub const ALL: [(&str, Self); 13] = [
+    pub const ALL: [(&str, Self); 14] = [
         ("max_abs", Self::MaxAbs),
         ("rms", Self::Rms),
         ("bias", Self::Bias),
@@ -90,6 +101,7 @@ impl Metric {
         ("rel_l2", Self::RelL2),
         ("flip", Self::Flip),
         ("drift", Self::Drift),
+        ("cost", Self::Cost),
         ("mean_z", Self::MeanZ),
         ("variance_ratio", Self::VarianceRatio),
         ("chi2_p", Self::Chi2P),

@@ -6,6 +6,7 @@ use super::{
     Evidence, Gate, GateError, Judgement, Proofs, Reproduction, Verdict, judge, prove, refit,
     reproduce,
 };
+use crate::counted::Counter;
 use crate::fit::{self, Spec};
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
@@ -36,6 +37,8 @@ pub struct Sources<'r> {
     pub scenes: &'r Scenes,
     /// What fits share.
     pub fits: &'r fit::Context,
+    /// What counts costs, and what it has counted.
+    pub counter: &'r Counter,
 }
 
 impl Check {

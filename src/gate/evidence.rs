@@ -6,6 +6,7 @@ use std::collections::btree_map::Entry;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::cost::CostRatios;
 use super::subject::{Instance, Lever, Subject};
 use super::{Domain, Gate, GateError, Metric, Refits, ShippedConstants, Sources, reproduce};
 use crate::effect::{Candidate, Effect, Member, Reference, Yardstick};
@@ -27,6 +28,7 @@ pub(super) struct Evidence<'r> {
     families: BTreeMap<&'static str, Vec<Member>>,
     judged: BTreeMap<(&'static str, String), Arc<Judged>>,
     standing: BTreeMap<String, Found<Arc<Standing>>>,
+    pub(super) costs: CostRatios,
 }
 
 /// Something, or why a gate on it fails.
@@ -35,7 +37,8 @@ pub(super) type Found<T> = Result<T, String>;
 impl<'r> Evidence<'r> {
     pub(super) fn new(of: Sources<'r>, refits: Refits) -> Self {
         let (families, judged) = (BTreeMap::new(), BTreeMap::new());
-        Self { of, refits, families, judged, standing: BTreeMap::new() }
+        let (standing, costs) = (BTreeMap::new(), CostRatios::new());
+        Self { of, refits, families, judged, standing, costs }
     }
 
     /// Fits that the subject of a gate takes its constants from.
@@ -110,7 +113,11 @@ impl<'r> Evidence<'r> {
 
     /// The candidates called `name`: the committed result of a spec, where it stands, or a registered
     /// form by itself.
-    fn standing(&mut self, gate: &Gate, name: &str) -> Result<Found<Arc<Standing>>, GateError> {
+    pub(super) fn standing(
+        &mut self,
+        gate: &Gate,
+        name: &str,
+    ) -> Result<Found<Arc<Standing>>, GateError> {
         if let Some(known) = self.standing.get(name) {
             return Ok(known.clone());
         }
@@ -118,8 +125,7 @@ impl<'r> Evidence<'r> {
         let found = if !name.contains("..") && path.is_file() {
             self.fitted(Spec::read(&path)?)?
         } else {
-            let unknown =
-                || gate.unknown(format!("there is no spec and no form `{}`", gate.subject));
+            let unknown = || gate.unknown(format!("there is no spec and no form `{name}`"));
             let entry = self.of.project.registry().form(name).ok_or_else(unknown)?;
             Ok(self.of.project.subject_of_form(entry)?.ok_or_else(unknown)?)
         };
@@ -220,7 +226,7 @@ impl<'r> Evidence<'r> {
 }
 
 /// `effect/name` and the label of `effect/name#label`.
-fn parted(subject: &str) -> (&str, Option<&str>) {
+pub(super) fn parted(subject: &str) -> (&str, Option<&str>) {
     subject.split_once('#').map_or((subject, None), |(name, member)| (name, Some(member)))
 }
 

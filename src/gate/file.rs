@@ -6,6 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::{Domain, Gate, Metric, Precision, SCENES};
+use crate::counted::GpuTarget;
 
 /// Why a gate file cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -56,6 +57,8 @@ struct RawGate {
     measured: Option<Spanned<f64>>,
     warn: Option<Spanned<f64>>,
     shipped: Option<Spanned<PathBuf>>,
+    relative_to: Option<Spanned<String>>,
+    target: Option<Spanned<String>>,
     why: Spanned<String>,
 }
 
@@ -153,6 +156,22 @@ impl Reading<'_> {
             let message = format!("is for the metric drift only, not for {metric}");
             self.ensure(drift, "shipped", shipped, message)?;
         }
+        let cost = metric == Metric::Cost;
+        let message =
+            "cost needs `relative_to = \"effect/name\"` and `target = \"rdna2\"` beside it";
+        let beside = raw.relative_to.is_some() && raw.target.is_some();
+        self.ensure(!cost || beside, "metric", &raw.metric, message)?;
+        for (key, text) in [("relative_to", &raw.relative_to), ("target", &raw.target)] {
+            let Some(text) = text else { continue };
+            let message = format!("is for the metric cost only, not for {metric}");
+            self.ensure(cost, key, text, message)?;
+        }
+        for (key, text) in [("domain", &raw.domain), ("precision", &raw.precision)] {
+            let Some(text) = text else { continue };
+            self.ensure(!cost, key, text, "a cost is counted, of no points and in no precision")?;
+        }
+        let targets = GpuTarget::ALL.map(|target| (target.name(), target));
+        let target = raw.target.as_ref().map(|name| self.named("target", name, &targets));
         Ok(Gate {
             index: self.index,
             line,
@@ -164,6 +183,8 @@ impl Reading<'_> {
             measured: raw.measured.map(Spanned::into_inner),
             warn: raw.warn.map(Spanned::into_inner),
             shipped: raw.shipped.map(Spanned::into_inner),
+            relative_to: raw.relative_to.map(Spanned::into_inner),
+            target: target.transpose()?,
             why,
         })
     }
@@ -260,6 +281,8 @@ mod tests {
             ("warn = 0.0510", "measured = 1.0", "gate 2, key measured"),
             ("\"max_abs\"", "\"max\"", "gate 2, key metric"),
             ("\"max_abs\"", "\"drift\"", "gate 2, key domain"),
+            ("\"max_abs\"", "\"cost\"", "gate 2, key metric"),
+            ("limit =", "target = \"rdna2\"\nlimit =", "gate 2, key target"),
             ("\"velinov2018 eq. 29\"", "\" \"", "gate 2, key why"),
             ("x = -10:10", "x = 10:10", "gate 2, key domain"),
         ];

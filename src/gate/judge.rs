@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::evidence::Found;
 use super::subject::Subject;
-use super::{Evidence, Gate, GateError, Judgement, Precision, Reached};
+use super::{Evidence, Gate, GateError, Judgement, Metric, Precision, Reached};
 use crate::gpu::Device;
 use crate::numeric::measured::Measured;
 
@@ -19,6 +19,7 @@ pub(super) fn judge(
     evidence: &mut Evidence<'_>,
     device: &Measured<Device>,
 ) -> Result<Vec<Judgement>, GateError> {
+    evidence.count(gates)?;
     let prepared = gates.iter().map(|gate| prepare(gate, evidence, device));
     let prepared = prepared.collect::<Result<Vec<_>, _>>()?;
     let judged = prepared.into_par_iter().zip(gates).map(|(prepared, gate)| match prepared {
@@ -40,6 +41,9 @@ fn prepare(
     device: &Measured<Device>,
 ) -> Result<Prepared, GateError> {
     let judged = |judgement| Ok(Prepared::Judged(Box::new(judgement)));
+    if gate.metric == Metric::Cost {
+        return judged(evidence.cost(gate));
+    }
     let on_device = gate.precision == Precision::Device;
     if gate.scene().is_some() {
         return judged(match device {

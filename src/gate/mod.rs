@@ -8,6 +8,7 @@
 //! # Example
 //!
 //! ```
+//! use striae::counted::Counter;
 //! use striae::document::Verdict;
 //! use striae::fit::Context;
 //! use striae::gate::{self, Check, Sources};
@@ -39,7 +40,9 @@
 //! let project = Project::at("a/folder/without/specs", Registry::builtin());
 //! let (atlas, scenes) = (Atlas::default(), Scenes::default());
 //! let fits = Context::new(project.root(), project.registry());
-//! let sources = Sources { project: &project, atlas: &atlas, scenes: &scenes, fits: &fits };
+//! let counter = Counter::default();
+//! let (project, scenes, fits, counter) = (&project, &scenes, &fits, &counter);
+//! let sources = Sources { project, atlas: &atlas, scenes, fits, counter };
 //! let device = Measured::NotMeasured("no gate needs a device".to_owned());
 //! let check = Check::of(sources, &gates, &[], &device, false)?;
 //! let verdicts: Vec<Verdict> = check.gates.iter().map(|gate| gate.verdict).collect();
@@ -52,6 +55,7 @@
 mod annotation;
 mod budget;
 mod check;
+mod cost;
 mod domain;
 mod error;
 mod evidence;

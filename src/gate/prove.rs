@@ -15,6 +15,9 @@ use crate::render::shading::Moved;
 /// is not guarded.
 const STEPS: [f64; 8] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3];
 
+/// What is moved of a cost.
+const COST: &str = "cost";
+
 /// Whether a gate notices a constant.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Proof {
@@ -68,6 +71,10 @@ pub(super) fn prove(
         }
         if gate.scene().is_some() {
             prove_scene(gate, evidence, device, &mut found)?;
+            continue;
+        }
+        if gate.metric == Metric::Cost {
+            prove_cost(gate, evidence, &mut found);
             continue;
         }
         match evidence.subject(gate)? {
@@ -165,6 +172,19 @@ fn prove_scene(
     }
     found.proofs.push(proof);
     Ok(())
+}
+
+/// Adds to the cost until the gate fails; one that is not counted here is not tried.
+fn prove_cost(gate: &Gate, evidence: &Evidence<'_>, found: &mut Proofs) {
+    let Some(reached) = evidence.cost(gate).measured else { return };
+    if gate.metric.worse(reached.value, gate.limit) {
+        found.defects.push(format!("{} fails as it stands: nothing to show", name(gate)));
+        return;
+    }
+    let mut proof = unproved(gate, COST, 1);
+    let mut moved = STEPS.into_iter().map(|step| (step, reached.value * (1.0 + step)));
+    proof.take(moved.find(|(_, value)| gate.metric.worse(*value, gate.limit)));
+    found.proofs.push(proof);
 }
 
 fn name(gate: &Gate) -> String {

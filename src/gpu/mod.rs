@@ -20,4 +20,5 @@ pub use device::Device;
 pub use dispatch::DeviceKernel;
 pub use error::{GpuError, NoDevice};
 pub use pipelines::PipelineCount;
+pub(crate) use program::{constant_key, unused_prefix};
 pub use timing::{Clock, Spread, TimedForm, Timing, TimingFigures, TimingOptions, time};

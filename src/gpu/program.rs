@@ -230,7 +230,7 @@ impl Program {
 }
 
 /// A pipeline constant is set by its `@id` where it has one, else by its name.
-fn constant_key(module: &naga::Module, name: &str) -> String {
+pub(crate) fn constant_key(module: &naga::Module, name: &str) -> String {
     module
         .overrides
         .iter()
@@ -240,7 +240,7 @@ fn constant_key(module: &naga::Module, name: &str) -> String {
 }
 
 /// A prefix that occurs nowhere in `source`, so that no name made with it collides.
-fn unused_prefix(source: &str) -> String {
+pub(crate) fn unused_prefix(source: &str) -> String {
     let mut prefix = "striae_kernel_".to_owned();
     while source.contains(&prefix) {
         prefix.push_str("x_");

@@ -123,6 +123,11 @@ impl Project {
         self.reports().join("accuracy.tsv")
     }
 
+    /// Folder of recorded costs.
+    pub fn costs(&self) -> PathBuf {
+        self.reports().join("costs")
+    }
+
     /// Folder of the full report, which is made anew and not committed.
     pub fn report(&self) -> PathBuf {
         self.reports().join("latest")

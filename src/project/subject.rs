@@ -1,6 +1,6 @@
 //! Subjects: what is judged under one name.
 
-use super::{Project, ProjectError};
+use super::{Project, ProjectError, nearest};
 use crate::effect::{Candidate, FormEntry};
 use crate::fit::outcome::Outcome;
 use crate::fit::spec::{FormChoice, Target};
@@ -100,6 +100,54 @@ impl Project {
         Ok(subjects)
     }
 
+    /// The subjects of these names, each once; all of them for no name. A name is an effect's, a
+    /// subject's, a pattern of subjects with `*`, or any that [`Project::candidate`] takes.
+    ///
+    /// # Errors
+    /// As [`Project::subjects`] and [`Project::candidate`]; [`ProjectError::Unknown`] for a pattern that
+    /// nothing matches.
+    pub fn subjects_named(&self, names: &[String]) -> Result<Vec<Subject>, ProjectError> {
+        let all = self.subjects()?;
+        if names.is_empty() {
+            return Ok(all);
+        }
+        let mut found: Vec<Subject> = Vec::new();
+        for name in names {
+            let of_effect = self.registry().effect(name).is_some();
+            let named = |subject: &&Subject| match of_effect {
+                true => subject.is_of(name),
+                false => matches(name, &subject.name),
+            };
+            let mut own: Vec<Subject> = all.iter().filter(named).cloned().collect();
+            if own.is_empty() && name.contains('*') {
+                let nearest = nearest(name, all.iter().map(|subject| subject.name.clone()));
+                let name = name.clone();
+                return Err(ProjectError::Unknown { what: "candidate like", name, nearest });
+            }
+            if own.is_empty() {
+                own.push(self.subject_of_candidate(self.candidate(name)?)?);
+            }
+            own.retain(|subject| !found.iter().any(|known| known.name == subject.name));
+            found.extend(own);
+        }
+        Ok(found)
+    }
+
+    /// A candidate by itself: it approximates what its fit or its registered form does. One member of a
+    /// family approximates no more than its own table.
+    fn subject_of_candidate(&self, candidate: Candidate) -> Result<Subject, ProjectError> {
+        let outcome = self.outcome_of(&candidate)?;
+        let form = outcome.as_ref().map_or(&candidate.name, |outcome| &outcome.form).clone();
+        let reference = match &outcome {
+            Some(outcome) => Some(outcome.target.clone()),
+            None => self.registry().form(&form).and_then(|entry| entry.reference.clone()),
+        };
+        let known = reference.filter(|name| self.registry().reference(name).is_some());
+        let approximates = known.map_or(Approximated::Table, Approximated::Reference);
+        let (name, candidates) = (candidate.name.clone(), vec![candidate]);
+        Ok(Subject { name, form, approximates, candidates, fitted: None })
+    }
+
     /// The subject made of a spec and its result.
     ///
     /// # Errors
@@ -144,5 +192,33 @@ impl Project {
         };
         let (name, form) = (entry.name.to_string(), entry.name.to_string());
         Ok(Some(Subject { name, form, approximates, candidates: vec![candidate], fitted: None }))
+    }
+}
+
+/// Whether `name` is `pattern`, in which `*` stands for anything.
+fn matches(pattern: &str, name: &str) -> bool {
+    let Some((before, after)) = pattern.split_once('*') else { return pattern == name };
+    let Some(rest) = name.strip_prefix(before) else { return false };
+    let mut ends = rest.char_indices().map(|(at, _)| at).chain([rest.len()]);
+    ends.any(|at| matches(after, &rest[at..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_stands_for_anything() {
+        for (pattern, name, expected) in [
+            ("a/b", "a/b", true),
+            ("a/b", "a/bc", false),
+            ("a/*", "a/b", true),
+            ("*_lean", "a/band_lean", true),
+            ("a/*b*", "a/xby", true),
+            ("a/*b", "a/bc", false),
+            ("*", "", true),
+        ] {
+            assert_eq!(matches(pattern, name), expected, "{pattern} {name}");
+        }
     }
 }

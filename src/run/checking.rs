@@ -13,9 +13,9 @@ impl Run {
     /// # Errors
     /// If gates, specs or results are unusable, as opposed to failing.
     pub fn check(&self, gates: Option<&Path>, prove: bool) -> Result<Check, RunError> {
-        let Self { project, device, atlas, scenes, fits, .. } = self;
+        let Self { project, device, atlas, scenes, fits, counter, .. } = self;
         let gates = gate::read(gates.unwrap_or(&project.gates())).map_err(GateError::from)?;
-        let sources = Sources { project, atlas, scenes, fits };
+        let sources = Sources { project, atlas, scenes, fits, counter };
         Ok(Check::of(sources, &gates, &self.specs()?, device, prove)?)
     }
 
@@ -28,8 +28,8 @@ impl Run {
         if self.project.gates().is_file() {
             return self.check(None, false);
         }
-        let Self { project, device, atlas, scenes, fits, .. } = self;
-        let sources = Sources { project, atlas, scenes, fits };
+        let Self { project, device, atlas, scenes, fits, counter, .. } = self;
+        let sources = Sources { project, atlas, scenes, fits, counter };
         Ok(Check::of(sources, &[], &self.specs()?, device, false)?)
     }
 

@@ -1,9 +1,10 @@
-//! Costs per adapter, recorded on purpose (`striae bench --record`): time belongs to a machine and to a
-//! moment, so that no other run writes it.
+//! Costs, recorded on purpose (`striae bench --record`): per adapter, since time belongs to a machine and to
+//! a moment, and per target whose machine code is counted, since that belongs to a compiler.
 
 use std::path::{Path, PathBuf};
 
-use super::{RunError, Studied};
+use super::{CountedCandidate, OnTarget, RunError, Studied};
+use crate::counted::{Counter, GpuTarget};
 use crate::document::cell::number;
 use crate::gpu::AdapterDescription;
 use crate::numeric::measured::Measured;
@@ -45,9 +46,78 @@ pub fn write_costs(
 ) -> Result<PathBuf, RunError> {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     let first = adapter.name.split(" (").next().unwrap_or(&adapter.name);
-    let path = folder.join(format!("{}.tsv", first.chars().map(plain).collect::<String>()));
+    let name: String = first.chars().map(plain).collect();
+    write(folder, &name, &cost_table(adapter, studied))
+}
+
+fn write(folder: &Path, name: &str, table: &str) -> Result<PathBuf, RunError> {
     std::fs::create_dir_all(folder)
         .map_err(|source| RunError::Io { path: folder.display().to_string(), source })?;
-    atomic_write(&path, cost_table(adapter, studied).as_bytes())?;
+    let path = folder.join(format!("{name}.tsv"));
+    atomic_write(&path, table.as_bytes())?;
     Ok(path)
+}
+
+/// Columns of a table of counted costs, after a line with target and compiler.
+const COUNTED: &str =
+    "candidate\tbaseline\tratio\tcost\tlatency\tinstructions\tquarter_rate\tregisters";
+
+/// What candidates cost on `target` as tab-separated values, under a line that names the compiler.
+///
+/// | column | unit | what |
+/// |---|---|---|
+/// | candidate, baseline | | names |
+/// | ratio | 1 | cost over that of the baseline |
+/// | cost, latency | cycles of a wave | inverse throughput and latency of one evaluation |
+/// | instructions, quarter_rate | 1 | of one evaluation; those at a quarter of the rate |
+/// | registers | 1 | vector registers of the kernel |
+///
+/// What was not counted has the reason in place of its cost and nothing after it.
+pub fn counted_table(target: GpuTarget, compiler: &str, counted: &[CountedCandidate]) -> String {
+    let mut lines = vec![format!("# {target}: {compiler}"), COUNTED.to_owned()];
+    for of in counted {
+        let Some(OnTarget { counted, ratio, .. }) = of.costs.iter().find(|on| on.target == target)
+        else {
+            continue;
+        };
+        let shown = |value: Option<f64>| value.map_or_else(String::new, |value| number(value, 4));
+        let (name, baseline, ratio) =
+            (&of.name, of.baseline.as_deref().unwrap_or_default(), shown(*ratio));
+        let figures = match counted {
+            Measured::NotMeasured(reason) => format!("not counted: {}", one_line(reason)),
+            Measured::Value(of) => {
+                let figures = [Some(of.cost), of.latency, Some(of.instructions)];
+                let rest = [Some(of.quarter_rate), Some(of.registers)];
+                figures.into_iter().chain(rest).map(shown).collect::<Vec<_>>().join("\t")
+            }
+        };
+        lines.push(format!("{name}\t{baseline}\t{ratio}\t{figures}"));
+    }
+    lines.push(String::new());
+    lines.join("\n")
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Writes [`counted_table`] of each target to `folder`, in a file named after it; of a target that cannot
+/// be counted here, nothing.
+///
+/// # Errors
+/// [`RunError::Table`] if one cannot be written.
+pub fn write_counted(
+    folder: &Path,
+    counter: &Counter,
+    targets: &[GpuTarget],
+    counted: &[CountedCandidate],
+) -> Result<Vec<PathBuf>, RunError> {
+    let mut written = Vec::new();
+    for target in targets {
+        if let Measured::Value(compiler) = counter.driver(*target) {
+            let table = counted_table(*target, &compiler, counted);
+            written.push(write(folder, target.name(), &table)?);
+        }
+    }
+    Ok(written)
 }

@@ -3,15 +3,18 @@
 mod accuracy;
 mod checking;
 mod costs;
+mod counting;
 mod fitting;
 mod reporting;
 
 use rayon::prelude::*;
 
 pub use accuracy::{accuracy_table, write_accuracy};
-pub use costs::{cost_table, write_costs};
+pub use costs::{cost_table, counted_table, write_costs, write_counted};
+pub use counting::{CountedCandidate, OnTarget};
 pub use fitting::{Job, fit};
 
+use crate::counted::Counter;
 use crate::effect::{Candidates, Effect, Member};
 use crate::fit;
 use crate::gpu::{self, Device, TimingOptions};
@@ -19,7 +22,7 @@ use crate::numeric::measured::Measured;
 use crate::project::{Project, Subject};
 use crate::render::Scenes;
 use crate::validate::ValidateError;
-use crate::validate::cost::{Costs, Timed, TimedReference, costs};
+use crate::validate::cost::{Costs, Timed, TimedReference, costs, counted};
 use crate::validate::regions::Atlas;
 use crate::validate::study::{Study, study};
 use crate::validate::timed::{timed, timed_references};
@@ -37,6 +40,8 @@ pub struct Run {
     pub scenes: Scenes,
     /// What fits share.
     pub fits: fit::Context,
+    /// What counts costs on GPUs that need not be there, and what it has counted.
+    pub counter: Counter,
     /// How kernels are timed: briefly, unless a caller wants more.
     pub timing: TimingOptions,
 }
@@ -163,6 +168,7 @@ impl Run {
             atlas: Atlas::default(),
             scenes: Scenes::default(),
             fits: fit::Context::new(project.root(), project.registry()),
+            counter: Counter::default(),
             timing: TimingOptions::brief(),
         }
     }
@@ -187,8 +193,12 @@ impl Run {
                 self.judge(effect, own.collect(), &candidates)
             })
             .collect();
+        // Every effect together: one process counts on a target.
+        let judged = judged.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let timed = judged.iter().flat_map(|judged| &judged.forms).flatten();
+        counted(&self.counter, &timed.map(|timed| &timed.candidate).collect::<Vec<_>>());
         // Nothing else runs beside what is timed.
-        judged.into_iter().map(|judged| self.with_costs(judged?)).collect()
+        judged.into_iter().map(|judged| self.with_costs(judged)).collect()
     }
 
     fn judge(
@@ -197,18 +207,7 @@ impl Run {
         subjects: Vec<Subject>,
         candidates: &Candidates,
     ) -> Result<Judged, RunError> {
-        // A project of the user's own may have no measured data: its families are not measured.
-        let families = match self.project.data().is_dir() {
-            true => effect.families,
-            false => &[],
-        };
-        let members = families
-            .par_iter()
-            .map(|family| {
-                (family.members)(&self.project.data(), true)
-                    .map_err(|source| RunError::Family { family: family.name, source })
-            })
-            .collect::<Result<Vec<_>, _>>()?;
+        let members = self.members(effect)?;
         let Self { project, atlas, device, .. } = self;
         let study = study(effect, &subjects, &members, candidates, project, atlas, device)?;
         let forms = timed(effect, &subjects, &members, project, atlas)?;
@@ -216,9 +215,26 @@ impl Run {
         Ok(Judged { effect, subjects, study, forms, references, members })
     }
 
+    /// Held-out members of each family of `effect`.
+    fn members(&self, effect: &'static Effect) -> Result<Vec<Vec<Member>>, RunError> {
+        // A project of the user's own may have no measured data: its families are not measured.
+        let families = match self.project.data().is_dir() {
+            true => effect.families,
+            false => &[],
+        };
+        families
+            .par_iter()
+            .map(|family| {
+                (family.members)(&self.project.data(), true)
+                    .map_err(|source| RunError::Family { family: family.name, source })
+            })
+            .collect()
+    }
+
     fn with_costs(&self, judged: Judged) -> Result<Studied, RunError> {
         let Judged { effect, subjects, study, forms, references, members } = judged;
-        let costs = costs(effect.name, &forms, &references, &self.device, &self.timing)?;
+        let Self { device, timing, counter, .. } = self;
+        let costs = costs(effect.name, &forms, &references, device, timing, counter)?;
         Ok(Studied { effect, subjects, study, costs, members })
     }
 }

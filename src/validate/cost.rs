@@ -1,5 +1,7 @@
-//! Cost of forms and references: ratios taken in one run, on the CPU lanes and on the device.
+//! Cost of forms and references: counted in machine code, and ratios taken in one run, on the CPU lanes and
+//! on the device.
 
+use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -8,8 +10,9 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
+use crate::counted::{CountedCost, Counter, GpuTarget};
 use crate::effect::{Candidate, Reference};
-use crate::form::{Input, OpCount, ScalarType};
+use crate::form::{Form, Input, OpCount, ScalarType};
 use crate::gpu::{self, AdapterDescription, Device, TimedForm, TimingFigures, TimingOptions};
 use crate::numeric::measured::Measured;
 use crate::numeric::statistics::percentile;
@@ -29,14 +32,58 @@ pub struct Cost {
     pub lanes_f64_ns: f64,
     /// Nanoseconds per evaluation on f32 lanes, one core.
     pub lanes_f32_ns: f64,
+    /// Cost counted in machine code, by target.
+    pub counted: BTreeMap<GpuTarget, Measured<CountedCost>>,
     /// Cost on the device, net of an empty kernel.
     pub device: Measured<TimingFigures>,
 }
 
+/// The target by which forms are ranked, and on which goals are judged.
+pub const RANKED_ON: GpuTarget = GpuTarget::Rdna2;
+
+/// By which cost the forms of a group are ranked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// Counted on [`RANKED_ON`]: cycles of a wave.
+    Counted,
+    /// Timed on the device, which may be software: ns.
+    Device,
+    /// Timed on f32 lanes: ns.
+    Lanes,
+}
+
+impl Basis {
+    /// `cost on rdna2`.
+    pub fn words(self) -> String {
+        match self {
+            Self::Counted => format!("cost on {RANKED_ON}, counted"),
+            Self::Device => "cost on the device".to_owned(),
+            Self::Lanes => "cost on f32 lanes".to_owned(),
+        }
+    }
+
+    /// Unit of the cost.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Counted => "cycles of a wave",
+            Self::Device | Self::Lanes => "ns",
+        }
+    }
+}
+
 impl Cost {
-    /// What the form costs where it is used: on the device if that was measured, else on f32 lanes.
-    pub fn nanoseconds(&self) -> f64 {
-        self.device.value().map_or(self.lanes_f32_ns, |timing| timing.net_ns.median)
+    /// The cost by `basis`; NaN if it was not measured.
+    fn by(&self, basis: Basis) -> f64 {
+        match basis {
+            Basis::Counted => self.on(RANKED_ON).map_or(f64::NAN, |counted| counted.cost),
+            Basis::Device => self.device.value().map_or(f64::NAN, |timing| timing.net_ns.median),
+            Basis::Lanes => self.lanes_f32_ns,
+        }
+    }
+
+    /// What was counted on `target`.
+    pub fn on(&self, target: GpuTarget) -> Option<&CountedCost> {
+        self.counted.get(&target)?.value()
     }
 }
 
@@ -60,6 +107,50 @@ pub struct Costs {
     pub forms: Vec<Cost>,
     /// References.
     pub references: Vec<ReferenceCost>,
+}
+
+impl Costs {
+    /// The cost of the fit called `name`.
+    pub fn of(&self, name: &str) -> Option<&Cost> {
+        self.forms.iter().find(|cost| cost.name == name)
+    }
+
+    /// By which cost the forms that refer to `baseline` are ranked: the counted one where the baseline has
+    /// been counted, else the time on the device, else that on lanes.
+    pub fn basis(&self, baseline: &str) -> Basis {
+        let of_baseline = self.of(baseline);
+        if of_baseline.is_some_and(|cost| cost.on(RANKED_ON).is_some()) {
+            Basis::Counted
+        } else if of_baseline.is_some_and(|cost| cost.device.value().is_some()) {
+            Basis::Device
+        } else {
+            Basis::Lanes
+        }
+    }
+
+    /// The number by which `cost` is ranked in its group; NaN if it was not measured.
+    pub fn ranked(&self, cost: &Cost) -> f64 {
+        cost.by(self.basis(&cost.baseline))
+    }
+
+    /// A counted cost over that of the baseline, or why it is not known.
+    pub fn ratio_on(&self, target: GpuTarget, cost: &Cost) -> Measured<f64> {
+        let counted = |cost: &Cost| {
+            let counted = cost.counted.get(&target).cloned();
+            counted.unwrap_or_else(|| Measured::NotMeasured("was not counted".to_owned()))
+        };
+        let baseline = self.of(&cost.baseline);
+        match (counted(cost), baseline.map(counted)) {
+            (Measured::Value(own), Some(Measured::Value(base))) => match own.over(&base) {
+                Some(ratio) => Measured::Value(ratio),
+                None => Measured::NotMeasured("the baseline costs as good as nothing".to_owned()),
+            },
+            (Measured::NotMeasured(reason), _) | (_, Some(Measured::NotMeasured(reason))) => {
+                Measured::NotMeasured(reason)
+            }
+            (_, None) => Measured::NotMeasured("there is no baseline".to_owned()),
+        }
+    }
 }
 
 /// A form with constants, and the points over which it is timed.
@@ -92,7 +183,7 @@ const REFERENCE_S: f64 = 0.1;
 /// Points per timed pass on the CPU.
 const POINTS: usize = 1 << 12;
 
-/// Times every candidate, on the device by `timing`, and every reference. The first candidate of each
+/// Counts every candidate by `counter`; times it, on the device by `timing`, and every reference. The first candidate of each
 /// group is the baseline of the ratios in it.
 ///
 /// Points are shuffled, so that a branch on the argument diverges as it would on a screen.
@@ -105,10 +196,16 @@ pub fn costs(
     references: &[TimedReference],
     device: &Measured<Device>,
     timing: &TimingOptions,
+    counter: &Counter,
 ) -> Result<Costs, ValidateError> {
     let mut forms = Vec::new();
     for group in groups {
         forms.extend(group_costs(group, device, timing)?);
+    }
+    let candidates: Vec<&Candidate> =
+        groups.iter().flatten().map(|timed| &timed.candidate).collect();
+    for (cost, counted) in forms.iter_mut().zip(counted(counter, &candidates)) {
+        cost.counted = counted;
     }
     Ok(Costs {
         effect: effect.to_owned(),
@@ -119,6 +216,21 @@ pub fn costs(
             .map(|timed| reference_cost(timed.reference, &shuffled(&timed.inputs)))
             .collect(),
     })
+}
+
+/// What `candidates` cost on every target, each with the constants that ship.
+pub fn counted(
+    counter: &Counter,
+    candidates: &[&Candidate],
+) -> Vec<BTreeMap<GpuTarget, Measured<CountedCost>>> {
+    let forms: Vec<(&Form, &[f32])> =
+        candidates.iter().map(|of| (&of.form, of.constants_f32.as_slice())).collect();
+    let costs = counter.costs(&GpuTarget::ALL, &forms);
+    let of = |at: usize| {
+        let targets = GpuTarget::ALL.into_iter().zip(&costs);
+        targets.filter_map(|(target, costs)| Some((target, costs.get(at)?.clone()))).collect()
+    };
+    (0..candidates.len()).map(of).collect()
 }
 
 /// Times the candidates of one group against each other.
@@ -170,6 +282,7 @@ fn group_costs(
             operations: timed.candidate.form.op_count(),
             lanes_f64_ns: percentile(&wide_ns[at], 50.0),
             lanes_f32_ns: percentile(&narrow_ns[at], 50.0),
+            counted: BTreeMap::new(),
             device: timings[at].clone(),
         })
         .collect())

@@ -186,21 +186,16 @@ fn differences(first: &Table, second: &Table) -> Vec<f64> {
 
 /// For each group, the cheapest form whose error stays within the measurement spread.
 ///
-/// `cost_ns` is the cost per evaluation of each fit, in the order of `forms`.
-pub fn choices(forms: &[FormOverFamily], spreads: &[GroupSpread], cost_ns: &[f64]) -> Vec<Choice> {
+/// `cost` is the cost per evaluation of each fit, in the order of `forms`.
+pub fn choices(forms: &[FormOverFamily], spreads: &[GroupSpread], cost: &[f64]) -> Vec<Choice> {
     let mut groups: Vec<&str> =
         forms.iter().flat_map(|form| &form.members).map(|member| member.group.as_str()).collect();
     groups.sort_unstable();
     groups.dedup();
-    groups.into_iter().map(|group| choice(group, forms, spreads, cost_ns)).collect()
+    groups.into_iter().map(|group| choice(group, forms, spreads, cost)).collect()
 }
 
-fn choice(
-    group: &str,
-    forms: &[FormOverFamily],
-    spreads: &[GroupSpread],
-    cost_ns: &[f64],
-) -> Choice {
+fn choice(group: &str, forms: &[FormOverFamily], spreads: &[GroupSpread], cost: &[f64]) -> Choice {
     let spread = spreads.iter().find(|spread| spread.group == group);
     let none = |reason: String| Choice {
         group: group.to_owned(),
@@ -214,7 +209,7 @@ fn choice(
     };
     let mut candidates: Vec<(&FormOverFamily, f64, f64)> = forms
         .iter()
-        .zip(cost_ns)
+        .zip(cost)
         .map(|(form, cost)| (form, group_rms(form, group), *cost))
         .filter(|(_, rms, _)| rms.is_finite())
         .collect();

@@ -9,7 +9,7 @@ use crate::effect::{Effect, Goal, Yardstick};
 use crate::numeric::measured::Measured;
 use crate::numeric::statistics::largest;
 use crate::validate::accuracy::Accuracy;
-use crate::validate::cost::{Cost, Costs};
+use crate::validate::cost::{Cost, Costs, RANKED_ON};
 use crate::validate::draws::DrawsStudy;
 use crate::validate::study::Study;
 
@@ -23,6 +23,8 @@ pub struct Standing<'a> {
     pub error: Vec<(String, f64)>,
     /// Whether no fit to the same reference errs less at no more cost.
     pub frontier: bool,
+    /// The cost by which fits to the same reference are ranked; NaN if it was not measured.
+    pub ranked: f64,
     /// Its cost.
     #[serde(flatten)]
     pub cost: &'a Cost,
@@ -44,17 +46,19 @@ pub fn standings<'a>(study: &'a Study, costs: &'a Costs) -> Vec<Standing<'a>> {
             fit: &cost.name,
             error: errors(study, &cost.name),
             frontier: false,
+            ranked: costs.ranked(cost),
             cost,
         })
         .collect();
-    standings.sort_by(|a, b| a.cost.nanoseconds().total_cmp(&b.cost.nanoseconds()));
+    // What has no cost comes last.
+    standings.sort_by(|a, b| a.ranked.total_cmp(&b.ranked));
     // Fits to different references answer different questions: a frontier each.
     let baselines: BTreeSet<&str> = costs.forms.iter().map(|cost| cost.baseline.as_str()).collect();
     for baseline in baselines {
         let mut best = f64::INFINITY;
         for standing in standings.iter_mut().filter(|one| one.cost.baseline == baseline) {
             let worst = standing.worst();
-            standing.frontier = worst < best;
+            standing.frontier = worst < best && !standing.ranked.is_nan();
             // A NaN is no error to beat.
             best = best.min(worst);
         }
@@ -62,7 +66,8 @@ pub fn standings<'a>(study: &'a Study, costs: &'a Costs) -> Vec<Standing<'a>> {
     standings
 }
 
-fn errors(study: &Study, fit: &str) -> Vec<(String, f64)> {
+/// The errors in f32 of a subject of `study`, by region; none if it was not judged.
+pub fn errors(study: &Study, fit: &str) -> Vec<(String, f64)> {
     if let Some(study) = study.candidates.iter().find(|study| study.name == fit) {
         let region = |(name, accuracy): &(String, Accuracy)| {
             let kind = match accuracy.yardstick {
@@ -106,11 +111,11 @@ impl<'a> Answers<'a> {
         Some(Self {
             baseline,
             as_cheap: comparable()
-                .filter(|one| one.cost.nanoseconds() / baseline.cost.nanoseconds() <= 1.0)
+                .filter(|one| one.ranked <= baseline.ranked)
                 .min_by(|a, b| a.worst().total_cmp(&b.worst())),
             better: comparable()
-                .filter(|one| one.worst() < baseline.worst())
-                .min_by(|a, b| a.cost.nanoseconds().total_cmp(&b.cost.nanoseconds())),
+                .filter(|one| one.worst() < baseline.worst() && !one.ranked.is_nan())
+                .min_by(|a, b| a.ranked.total_cmp(&b.ranked)),
         })
     }
 }
@@ -131,15 +136,12 @@ pub struct Cheapest {
 }
 
 /// For every region in which forms are compared by a relative error: who reaches 10 %, 1 % and 0.1 %
-/// at the least cost, on the device or, where there is none, on f32 lanes.
+/// at the least cost, by what their group is ranked by.
 pub fn cheapest(study: &Study, costs: &Costs) -> Vec<Cheapest> {
     let mut found: Vec<Cheapest> = Vec::new();
     for fit in &study.candidates {
-        let Some(cost) = costs.forms.iter().find(|cost| cost.name == fit.name) else {
-            continue;
-        };
-        let of_baseline = costs.forms.iter().find(|other| other.name == cost.baseline);
-        let unit = of_baseline.map_or(f64::NAN, Cost::nanoseconds);
+        let Some(cost) = costs.of(&fit.name) else { continue };
+        let unit = costs.of(&cost.baseline).map_or(f64::NAN, |baseline| costs.ranked(baseline));
         for (region, accuracy) in &fit.regions {
             if accuracy.yardstick == Yardstick::MaxAbs {
                 continue;
@@ -154,10 +156,10 @@ pub fn cheapest(study: &Study, costs: &Costs) -> Vec<Cheapest> {
                 });
                 found.len() - 1
             });
-            let ratio = cost.nanoseconds() / unit;
+            let ratio = costs.ranked(cost) / unit;
             for (best, limit) in found[place].fits.iter_mut().zip(LIMITS) {
                 let cheaper = best.as_ref().is_none_or(|(_, least)| ratio < *least);
-                if accuracy.headline() <= limit && cheaper {
+                if accuracy.headline() <= limit && cheaper && !ratio.is_nan() {
                     *best = Some((cost.name.clone(), ratio));
                 }
             }
@@ -183,11 +185,12 @@ pub struct GoalVerdict {
     pub cost_asked: f64,
     /// The fit that the cost refers to.
     pub baseline: String,
-    /// The cost on the device, relative to the baseline.
+    /// The cost counted on [`RANKED_ON`], relative to the baseline; a time on a device stands for no GPU but
+    /// that one, and is not taken.
     pub cost: Measured<f64>,
     /// Why this error and this cost.
     pub why: String,
-    /// Whether both are reached; not measured without a device, unless the error alone fails.
+    /// Whether both are reached; not measured where nothing was counted, unless the error alone fails.
     pub met: Measured<bool>,
 }
 
@@ -203,13 +206,10 @@ pub fn goals(effect: &Effect, study: &Study, costs: &Costs) -> Vec<GoalVerdict> 
         let error = accuracy.map_or(f64::NAN, |accuracy| {
             accuracy.headline_device.value().copied().unwrap_or_else(|| accuracy.headline())
         });
-        let cost = costs.forms.iter().find(|cost| cost.name == goal.fit);
-        let ratio = match cost.map(|cost| &cost.device) {
-            Some(Measured::Value(timing)) => {
-                Measured::Value(timing.ratio.map_or(f64::NAN, |ratio| ratio.median))
-            }
-            Some(Measured::NotMeasured(reason)) => Measured::NotMeasured(reason.clone()),
-            None => Measured::NotMeasured("the fit was not timed".to_owned()),
+        let cost = costs.of(goal.fit);
+        let ratio = match cost {
+            Some(cost) => costs.ratio_on(RANKED_ON, cost),
+            None => Measured::NotMeasured("the fit is none that was measured".to_owned()),
         };
         let accurate = error <= goal.error;
         let met = match &ratio {

@@ -101,6 +101,47 @@ pub fn study(
         laws.extend(verdicts);
         studies.extend(study);
     }
+    Ok(Study {
+        effect: effect.name.to_owned(),
+        candidates: studies,
+        families: judge_families(effect, subjects, members)?,
+        laws,
+        findings,
+        exhibits: exhibits?,
+    })
+}
+
+/// The accuracy of `subjects` in f64 and f32 and nothing else of [`study`], whose arguments these are.
+///
+/// # Errors
+/// As [`study`].
+pub fn accuracy_study(
+    effect: &Effect,
+    subjects: &[Subject],
+    members: &[Vec<Member>],
+    project: &Project,
+    atlas: &Atlas,
+) -> Result<Study, ValidateError> {
+    let device = &Measured::NotMeasured("no device was asked".to_owned());
+    let judged = subjects
+        .par_iter()
+        .map(|subject| judge_accuracy(effect, subject, project, atlas, device))
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(Study {
+        effect: effect.name.to_owned(),
+        candidates: judged.into_iter().flatten().collect(),
+        families: judge_families(effect, subjects, members)?,
+        laws: Vec::new(),
+        findings: Vec::new(),
+        exhibits: Vec::new(),
+    })
+}
+
+fn judge_families(
+    effect: &Effect,
+    subjects: &[Subject],
+    members: &[Vec<Member>],
+) -> Result<Vec<FamilyStudy>, ValidateError> {
     let families = effect.families.iter().zip(members).map(|(family, members)| {
         let over = Approximated::Family(family.name.to_owned());
         let forms = subjects
@@ -110,14 +151,7 @@ pub fn study(
             .collect::<Result<_, _>>()?;
         Ok(FamilyStudy { family: family.name.to_owned(), forms, spreads: spreads(members) })
     });
-    Ok(Study {
-        effect: effect.name.to_owned(),
-        candidates: studies,
-        families: families.collect::<Result<_, ValidateError>>()?,
-        laws,
-        findings,
-        exhibits: exhibits?,
-    })
+    families.collect()
 }
 
 /// The laws that a subject's first candidate stands to, and its study, if it approximates a reference.
@@ -130,10 +164,22 @@ fn judge_subject(
 ) -> Result<(Vec<LawVerdict>, Option<CandidateStudy>), ValidateError> {
     let Some(candidate) = subject.candidates.first() else { return Ok((Vec::new(), None)) };
     let laws = judge(effect, &subject.form, registered_reference(project, subject), candidate);
-    let Approximated::Reference(name) = &subject.approximates else { return Ok((laws, None)) };
-    let Some((_, reference)) = project.registry().reference(name) else { return Ok((laws, None)) };
+    Ok((laws, judge_accuracy(effect, subject, project, atlas, device)?))
+}
+
+/// The study of a subject's first candidate, if it approximates a reference.
+fn judge_accuracy(
+    effect: &Effect,
+    subject: &Subject,
+    project: &Project,
+    atlas: &Atlas,
+    device: &Measured<Device>,
+) -> Result<Option<CandidateStudy>, ValidateError> {
+    let Some(candidate) = subject.candidates.first() else { return Ok(None) };
+    let Approximated::Reference(name) = &subject.approximates else { return Ok(None) };
+    let Some((_, reference)) = project.registry().reference(name) else { return Ok(None) };
     let grounds = atlas.grounds(effect, reference)?;
-    Ok((laws, Some(one(subject, candidate, reference, &grounds, device)?)))
+    Ok(Some(one(subject, candidate, reference, &grounds, device)?))
 }
 
 /// What the effect shows beyond its candidates; where the project lacks a fit or the data for it, that

@@ -31,11 +31,12 @@ pub fn timed(
     for subject in subjects {
         let Some(mut candidate) = subject.candidates.first().cloned() else { continue };
         candidate.name.clone_from(&subject.name);
-        let (group, target) = match &subject.approximates {
+        let Some(group) = group(subject) else { continue };
+        let target = match &subject.approximates {
             Approximated::Reference(name) => {
                 let Some((_, reference)) = project.registry().reference(name) else { continue };
                 let grounds = atlas.grounds(effect, reference)?;
-                (reference.name, grounds.everywhere(&candidate.form)?)
+                grounds.everywhere(&candidate.form)?
             }
             Approximated::Family(name) => {
                 let at = effect.families.iter().position(|family| family.name == name);
@@ -45,7 +46,7 @@ pub fn timed(
                     .step_by(held_out.len().div_ceil(MEMBERS).max(1))
                     .map(|member| GroundTruth::of_table(&member.table, &candidate.form))
                     .collect::<Result<Vec<_>, _>>()?;
-                (FAMILIES, GroundTruth::all(targets))
+                GroundTruth::all(targets)
             }
             Approximated::Table => continue,
         };
@@ -56,12 +57,40 @@ pub fn timed(
     let order = effect.references.iter().map(|reference| reference.name).chain([FAMILIES]);
     let mut ordered: Vec<Vec<Timed>> = order.filter_map(|name| groups.remove(name)).collect();
     for group in &mut ordered {
-        let baseline = |timed: &Timed| effect.baselines.contains(&timed.candidate.name.as_str());
-        if let Some(at) = group.iter().position(baseline) {
+        if let Some(at) = group.iter().position(|timed| is_baseline(effect, &timed.candidate.name))
+        {
             group.swap(0, at);
         }
     }
     Ok(ordered)
+}
+
+/// What candidates are compared with whose ratios of cost have one baseline; none for what approximates
+/// a table of the user's.
+fn group(subject: &Subject) -> Option<&str> {
+    match &subject.approximates {
+        Approximated::Reference(name) => Some(name),
+        Approximated::Family(_) => Some(FAMILIES),
+        Approximated::Table => None,
+    }
+}
+
+fn is_baseline(effect: &Effect, name: &str) -> bool {
+    effect.baselines.contains(&name)
+}
+
+/// The subject to which ratios of cost of `subject` refer, among the `subjects` of `effect`.
+pub fn baseline<'s>(
+    effect: &Effect,
+    subjects: &'s [Subject],
+    subject: &Subject,
+) -> Option<&'s Subject> {
+    let wanted = group(subject)?;
+    let comparable = || {
+        let own = subjects.iter().filter(|other| other.is_of(effect.name));
+        own.filter(|other| group(other) == Some(wanted))
+    };
+    comparable().find(|other| is_baseline(effect, &other.name)).or_else(|| comparable().next())
 }
 
 /// The references of `effect` with the points they are timed on.

@@ -1,12 +1,15 @@
 //! Error against cost, with the frontier drawn.
 
-use super::{EffectEvidence, bare, device_notice, on_device};
+use super::{EffectEvidence, bare, device_notice};
+use crate::counted::{CountedCost, GpuTarget};
 use crate::document::plot::{Plot, PlotAxis};
-use crate::document::{Block, Cell, Figure, PrintedColumn, PrintedTable, Section, Verdict, number};
+use crate::document::{
+    Block, Cell, Figure, NoticeLevel, PrintedColumn, PrintedTable, Section, Verdict, number,
+};
 use crate::effect::{Effect, Yardstick};
 use crate::gpu::{Spread, TimingFigures};
 use crate::numeric::measured::Measured;
-use crate::validate::cost::Costs;
+use crate::validate::cost::{Cost, Costs, RANKED_ON};
 use crate::validate::standing::{
     Answers, Cheapest, GoalVerdict, LIMITS, Standing, cheapest, goals, standings,
 };
@@ -25,31 +28,60 @@ pub(super) fn section(evidence: &EffectEvidence<'_>) -> Section {
 /// What the forms of an effect cost and how they stand: what follows for a renderer, then tables.
 pub fn cost_section(title: &str, effect: &Effect, study: &Study, costs: &Costs) -> Section {
     let standings = standings(study, costs);
-    let section = Section::new(title);
+    let section = Section::new(title).paragraph(format!(
+        "Counted costs: issue cycles of a wave per evaluation in the machine code of a GPU, net of a kernel \
+         without the form. They rank the forms, on {RANKED_ON}, and goals are judged on them; ratios \
+         refer to {}.",
+        baselines(costs)
+    ));
+    let section = uncounted(costs)
+        .into_iter()
+        .fold(section, |section, text| section.notice(NoticeLevel::NotMeasured, text));
     let section = match &costs.adapter {
         Measured::Value(adapter) => section.paragraph(format!(
-            "Device: {adapter}. Medians of interleaved rounds in one run, net of an empty kernel; \
-             ratios refer to {}.",
-            baselines(costs)
+            "Times: medians of interleaved rounds in one run on {adapter}, net of an empty kernel."
         )),
-        Measured::NotMeasured(_) => device_notice(section, &costs.adapter)
-            .paragraph("Costs below are those of the f32 lanes on one core."),
+        Measured::NotMeasured(_) => device_notice(section, &costs.adapter),
     };
     let answers = groups(costs).into_iter().filter_map(|name| Answers::of(&standings, name));
     let (least, verdicts) = (cheapest(study, costs), goals(effect, study, costs));
     section
         .list(answers.map(|answers| answer(&answers)))
-        .block(table(&standings, costs))
+        .block(counted_table(&standings, costs))
+        .block(timed_table(&standings, costs))
         .blocks((!least.is_empty()).then(|| cheapest_table(&least)))
         .blocks((!verdicts.is_empty()).then(|| goal_table(&verdicts)))
         .block(references(costs))
+}
+
+/// Why forms have no counted cost, once per reason.
+fn uncounted(costs: &Costs) -> Vec<String> {
+    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+    for cost in &costs.forms {
+        for (target, counted) in &cost.counted {
+            let Measured::NotMeasured(reason) = counted else { continue };
+            let at = reasons.iter().position(|(known, _)| known == reason);
+            let at = at.unwrap_or_else(|| {
+                reasons.push((reason, Vec::new()));
+                reasons.len() - 1
+            });
+            let target = target.to_string();
+            if !reasons[at].1.contains(&target) {
+                reasons[at].1.push(target);
+            }
+        }
+    }
+    let line = |(reason, targets): &(&str, Vec<String>)| {
+        format!("Not counted on {}: {reason}", targets.join(", "))
+    };
+    reasons.iter().map(line).collect()
 }
 
 /// What is as cheap as the baseline and better, and what is better and cheapest.
 fn answer(answers: &Answers<'_>) -> String {
     let Answers { baseline, as_cheap, better } = answers;
     let shown = |one: &Standing<'_>| {
-        let ratio = one.cost.nanoseconds() / baseline.cost.nanoseconds();
+        let ratio = one.ranked / baseline.ranked;
         format!("`{}` ({} at {}×)", bare(one.fit), number(one.worst(), 3), number(ratio, 3))
     };
     let mut text =
@@ -66,16 +98,13 @@ fn answer(answers: &Answers<'_>) -> String {
 fn figures(evidence: &EffectEvidence<'_>) -> Vec<Figure> {
     let (effect, costs) = (evidence.effect, evidence.costs);
     let groups = groups(costs);
-    let (axis, place) = match &costs.adapter {
-        Measured::Value(_) => ("cost on the device", "device"),
-        Measured::NotMeasured(_) => ("cost on f32 lanes", "f32 lanes"),
-    };
     let figure = |(number, (group, (points, yardstick))): (usize, (&&str, Points<'_>))| {
         let title = match groups.len() {
             1 => format!("{}: error against cost", effect.title),
             _ => format!("Error against cost, beside {}", bare(group)),
         };
-        let x = PlotAxis::log(axis, "ns per evaluation");
+        let basis = costs.basis(group);
+        let x = PlotAxis::log(basis.words(), format!("{} per evaluation", basis.unit()));
         let y = PlotAxis::log(format!("{}, f32", yardstick.words()), "1");
         let plot = Plot::new(title, x, y).with_labelled("forms", &points);
         let slug = effect.name.replace('_', "-");
@@ -84,7 +113,8 @@ fn figures(evidence: &EffectEvidence<'_>) -> Vec<Figure> {
             _ => format!("{slug}-cost-{number}"),
         };
         let caption = format!(
-            "Error against cost ({place}); the staircase joins the forms that no other beats in both."
+            "Error against {}; the staircase joins the forms that no other beats in both.",
+            basis.words()
         );
         Figure::new(stem, caption, plot)
     };
@@ -100,7 +130,10 @@ type Points<'a> = (Vec<(&'a str, f64, f64)>, Yardstick);
 fn errors<'a>(evidence: &EffectEvidence<'a>, baseline: &str) -> Points<'a> {
     let study = evidence.study;
     let mut yardstick = Yardstick::MaxAbs;
-    let timed = evidence.costs.forms.iter().filter(|cost| cost.baseline == baseline);
+    let costs = evidence.costs;
+    // What costs as good as nothing has no place on a scale of ratios.
+    let placed = |cost: &&Cost| cost.baseline == baseline && costs.ranked(cost) > 0.0;
+    let timed = costs.forms.iter().filter(placed);
     let points = timed.filter_map(|cost| {
         let single = study.candidates.iter().find(|fit| fit.name == cost.name);
         let error = match single {
@@ -114,7 +147,7 @@ fn errors<'a>(evidence: &EffectEvidence<'a>, baseline: &str) -> Points<'a> {
                 forms.find(|form| form.fit == cost.name)?.max_abs
             }
         };
-        Some((bare(&cost.name), cost.nanoseconds(), error))
+        Some((bare(&cost.name), costs.ranked(cost), error))
     });
     (points.collect(), yardstick)
 }
@@ -135,7 +168,46 @@ fn baselines(costs: &Costs) -> String {
     }
 }
 
-fn table(standings: &[Standing<'_>], costs: &Costs) -> PrintedTable {
+fn counted_table(standings: &[Standing<'_>], costs: &Costs) -> PrintedTable {
+    let counted = |of: fn(&CountedCost) -> Option<f64>| {
+        move |one: &&Standing<'_>| {
+            Cell::number_or(one.cost.on(RANKED_ON).and_then(of), 4, "not counted")
+        }
+    };
+    PrintedTable::over(
+        "Cost per evaluation, counted: relative to the baseline on each target, then the figures of the \
+         first. The cheapest first. On the frontier: no fit to the same reference errs less at no more \
+         cost.",
+        standings,
+    )
+    .code("fit", |one| bare(one.fit))
+    .text("frontier", |one| if one.frontier { "●" } else { "" })
+    .text("error, f32", errors_of)
+    .columns(
+        GpuTarget::ALL,
+        |target| PrintedColumn::number(format!("ratio, {target}"), "1"),
+        |one, target| match costs.ratio_on(*target, one.cost) {
+            Measured::Value(ratio) => Cell::number(ratio, 3),
+            Measured::NotMeasured(_) if one.cost.on(*target).is_some() => Cell::missing("none"),
+            Measured::NotMeasured(_) => Cell::missing("not counted"),
+        },
+    )
+    .number("cost", "cycles of a wave", counted(|of| Some(of.cost)))
+    .number("latency", "cycles", counted(|of| of.latency))
+    .number("instructions", "1", counted(|of| Some(of.instructions)))
+    .number("quarter rate", "1", counted(|of| Some(of.quarter_rate)))
+    .number("registers", "1", counted(|of| Some(of.registers)))
+    .subject(|one| one.fit == one.cost.baseline)
+    .table()
+}
+
+fn errors_of(one: &&Standing<'_>) -> Cell {
+    let errors = one.error.iter();
+    let errors = errors.map(|(region, error)| format!("{} ({region})", number(*error, 3)));
+    Cell::text(errors.collect::<Vec<_>>().join(", "))
+}
+
+fn timed_table(standings: &[Standing<'_>], costs: &Costs) -> PrintedTable {
     let has_device = costs.adapter.value().is_some();
     let timed = |of: fn(&TimingFigures) -> Cell| {
         move |one: &&Standing<'_>| match &one.cost.device {
@@ -146,17 +218,11 @@ fn table(standings: &[Standing<'_>], costs: &Costs) -> PrintedTable {
         }
     };
     PrintedTable::over(
-        "Cost per evaluation, the cheapest first. Lanes: one core, interpreted from naga's IR. On \
-         the frontier: no fit to the same reference errs less at no more cost.",
+        "Time per evaluation in this run, which holds for this machine. Lanes: one core, interpreted \
+         from naga's IR.",
         standings,
     )
     .code("fit", |one| bare(one.fit))
-    .text("frontier", |one| if one.frontier { "●" } else { "" })
-    .text("error, f32", |one| {
-        let errors = one.error.iter();
-        let errors = errors.map(|(region, error)| format!("{} ({region})", number(*error, 3)));
-        Cell::text(errors.collect::<Vec<_>>().join(", "))
-    })
     .number("device", "ns", timed(|of| Cell::number(of.net_ns.median, 3)))
     .text("quartiles [ns]", timed(|of| quartiles(Some(of.net_ns))))
     .number(
@@ -217,8 +283,10 @@ fn cheapest_table(least: &[Cheapest]) -> PrintedTable {
 
 fn goal_table(verdicts: &[GoalVerdict]) -> PrintedTable {
     PrintedTable::over(
-        "What was set out to be reached, beside what is reached: error on the device (in f32 where \
-         there is none) and cost relative to the baseline.",
+        format!(
+            "What was set out to be reached, beside what is reached: error on the device (in f32 where \
+             there is none) and cost relative to the baseline, counted on {RANKED_ON}."
+        ),
         verdicts,
     )
     .code("fit", |goal| bare(&goal.fit))
@@ -227,7 +295,10 @@ fn goal_table(verdicts: &[GoalVerdict]) -> PrintedTable {
     .number("reached", "1", |goal| goal.error)
     .code("baseline", |goal| bare(&goal.baseline))
     .number("cost asked", "1", |goal| goal.cost_asked)
-    .number("cost", "1", |goal| on_device(&goal.cost, 3))
+    .number("cost", "1", |goal| match &goal.cost {
+        Measured::Value(ratio) => Cell::number(*ratio, 3),
+        Measured::NotMeasured(reason) => Cell::missing(reason.as_str()),
+    })
     .verdict("verdict", |goal| match &goal.met {
         Measured::Value(true) => Cell::verdict_as(Verdict::Pass, "met"),
         Measured::Value(false) => Cell::verdict_as(Verdict::Fail, "not met"),

@@ -6,6 +6,7 @@ use crate::document::{Cell, Figure, PrintedColumn, PrintedTable, Section, number
 use crate::effect::{Family, Member};
 use crate::project::Approximated;
 use crate::validate::ValidateError;
+use crate::validate::cost::Basis;
 use crate::validate::curves::over_member;
 use crate::validate::family::{Choice, FormOverFamily, choices, group_rms};
 use crate::validate::study::FamilyStudy;
@@ -23,10 +24,12 @@ pub(super) fn section(
         position(evidence, &family.family).map_or("", |(_, family)| family.description);
     let cost = family.forms.iter().map(|form| evidence.cost(&form.fit).unwrap_or(f64::INFINITY));
     let cost: Vec<f64> = cost.collect();
+    let first = family.forms.first().and_then(|form| evidence.costs.of(&form.fit));
+    let basis = evidence.costs.basis(first.map_or("", |cost| &cost.baseline));
     let choices = choices(&family.forms, &family.spreads, &cost);
     let mut section = Section::new(format!("Family: {}", family.family.replace('_', " ")))
         .paragraph(description)
-        .block(forms_table(family, &cost))
+        .block(forms_table(family, &cost, basis))
         .block(choice_table(&choices))
         .paragraph(
             "Where sources disagree by more than a form errs, a finer form fits one laboratory's noise: \
@@ -47,7 +50,7 @@ fn position<'a>(evidence: &EffectEvidence<'a>, name: &str) -> Option<(usize, &'a
     evidence.effect.families.iter().enumerate().find(|(_, family)| family.name == name)
 }
 
-fn forms_table(family: &FamilyStudy, cost: &[f64]) -> PrintedTable {
+fn forms_table(family: &FamilyStudy, cost: &[f64], basis: Basis) -> PrintedTable {
     let mut forms: Vec<_> = family.forms.iter().zip(cost).collect();
     forms.sort_by(|(a, _), (b, _)| b.rms.total_cmp(&a.rms));
     let spread = |form: &FormOverFamily| {
@@ -68,7 +71,7 @@ fn forms_table(family: &FamilyStudy, cost: &[f64]) -> PrintedTable {
     .number("max", "1", |(form, _)| form.max_abs)
     .text("worst member", |(form, _)| form.max_member.as_str())
     .text("where", |(form, _)| place(&form.max_at, 4))
-    .number("cost", "ns", |(_, cost)| **cost)
+    .number(basis.words(), basis.unit(), |(_, cost)| **cost)
     .text("spread of the constants between sources", |(form, _)| spread(form))
     .table()
 }

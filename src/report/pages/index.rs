@@ -4,6 +4,7 @@ use super::{EffectEvidence, bare, gates};
 use crate::document::{Cell, Page, PrintedTable, Section, Verdict};
 use crate::gate::Judgement;
 use crate::numeric::measured::Measured;
+use crate::validate::cost::RANKED_ON;
 
 /// The first page: how it stands, what there is.
 pub fn index_page(effects: &[EffectEvidence<'_>], gates: &[&Judgement]) -> Page {
@@ -42,16 +43,20 @@ fn errors(effects: &[EffectEvidence<'_>]) -> PrintedTable {
     });
     PrintedTable::over(
         "Fits to references over the first region in which they are judged, in f32, by the error by \
-         which forms are compared there. Cost: on the device, or on f32 lanes where no device was \
-         measured.",
+         which forms are compared there. Cost: counted in machine code, relative to the baseline of \
+         the reference.",
         fits,
     )
     .text("effect", |(of, ..)| of.effect.title)
     .code("fit", |(_, fit, _)| bare(&fit.name))
     .text("error", |(.., accuracy)| accuracy.yardstick.words())
     .number("value", "1", |(.., accuracy)| accuracy.headline())
-    .number("cost", "ns", |(of, fit, _)| {
-        Cell::number_or(of.cost(&fit.name), 3, "not timed")
+    .number(format!("cost on {RANKED_ON}, relative"), "1", |(of, fit, _)| {
+        match of.costs.of(&fit.name).map(|cost| of.costs.ratio_on(RANKED_ON, cost)) {
+            Some(Measured::Value(ratio)) => Cell::number(ratio, 3),
+            Some(Measured::NotMeasured(reason)) => Cell::missing(reason),
+            None => Cell::missing("has no points"),
+        }
     })
     .table()
 }

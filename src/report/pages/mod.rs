@@ -50,9 +50,9 @@ pub struct EffectEvidence<'a> {
 }
 
 impl EffectEvidence<'_> {
-    /// What a fit costs, in ns; none if it was not timed.
+    /// The cost by which a fit is ranked; none if it was not measured.
     fn cost(&self, fit: &str) -> Option<f64> {
-        self.costs.forms.iter().find(|cost| cost.name == fit).map(|cost| cost.nanoseconds())
+        self.costs.of(fit).map(|cost| self.costs.ranked(cost)).filter(|cost| !cost.is_nan())
     }
 }
 
