@@ -184,8 +184,7 @@ fn across(lines: &[Line<'_>], targets: &[GpuTarget]) -> PrintedTable {
             |(_, name)| PrintedColumn::number(*name, "1"),
             |row, (at, _)| {
                 let line = &row[*at];
-                let none = if line.cost.is_some() { "no baseline" } else { "not measured" };
-                Cell::number_or(line.ratio, 3, none)
+                Cell::number_or(line.ratio, 3, line.not_measured.unwrap_or("no baseline"))
             },
         )
         .code("baseline", |row| row[0].baseline.unwrap_or_default())
