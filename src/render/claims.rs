@@ -37,8 +37,9 @@ pub struct SceneCheck {
 /// | `speed_up` | how much longer Monte Carlo takes for the error of `published` |
 /// | `frame_rate` | ms a frame beside a printed frame rate |
 /// | `rank` | that the first of `ranks`, of rank 1, looks like the reference |
+/// | `white_sky` | that the reference is 1 wherever a surface that only redistributes is seen |
 /// | `printed_loop` | that `literal`, alg. 1 read literally, errs, beside `passes` of the same rank |
-pub static CHECKS: [SceneCheck; 5] = [
+pub static CHECKS: [SceneCheck; 6] = [
     SceneCheck {
         name: "si_error",
         keys: &["published_si", "exact_si", "published?"],
@@ -63,6 +64,13 @@ pub static CHECKS: [SceneCheck; 5] = [
                   and the rendering does not improve much, since artefacts are blurred out when \
                   convolving with the environment",
         check: rank,
+    },
+    SceneCheck {
+        name: "white_sky",
+        keys: &[],
+        place: "toisoul2017 eq. 3",
+        printed: "F² G/w² S_d L_i dω_i with one table S_d, whose G makes cos²θ of a mirror",
+        check: white_sky,
     },
     SceneCheck {
         name: "printed_loop",
@@ -220,6 +228,17 @@ fn frame_rate(of: &SceneEvidence<'_>) -> Result<Found, ClaimError> {
         Measured::NotMeasured(reason) => format!("not measured: {reason}"),
     };
     Ok(Found::new(found, verdict))
+}
+
+fn white_sky(of: &SceneEvidence<'_>) -> Result<Found, ClaimError> {
+    let values = of.rendered.reference.channels.iter().flat_map(|channel| &channel.values);
+    // Nothing is met where it is exactly 0.
+    let seen = values.filter(|value| **value != 0.0);
+    let (low, high) =
+        seen.fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
+    let found = format!("the reference, which conserves, lies between {low:.6} and {high:.6}");
+    let conserves = low > 1.0 - 1e-3 && high < 1.0 + 1e-3;
+    Ok(Found::new(found, if conserves { "differs: all comes back" } else { "does not hold" }))
 }
 
 fn rank(of: &SceneEvidence<'_>) -> Result<Found, ClaimError> {
